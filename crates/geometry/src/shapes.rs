@@ -1,0 +1,44 @@
+//! The exact shapes, one file each, in their canonical spaces.
+//!
+//! A canonical shape has as few parameters as it can: the unit sphere, the unit cylinder. Size and place are in the
+//! transform of the [`Primitive`](crate::Primitive) that holds it, so that non-uniform scale and mirroring need no
+//! code here. To add a shape, see CONTRIBUTING.md.
+
+pub(crate) mod cone;
+pub(crate) mod cuboid;
+pub(crate) mod cylinder;
+pub(crate) mod disc;
+pub(crate) mod plane;
+pub(crate) mod rectangle;
+pub(crate) mod sphere;
+pub(crate) mod torus;
+pub(crate) mod triangle;
+
+use crate::{Bounds, Crossing, Ray};
+use durer_math::{DVec2, DVec3};
+
+/// What every shape can answer, in its canonical space.
+pub(crate) trait Shape {
+    /// The smallest box around it; infinite for a plane.
+    fn bounds(&self) -> Bounds;
+
+    /// The nearest crossing with 0 < t < `t_max`, of a ray whose direction has any length.
+    ///
+    /// The sign of a root is exact for an origin that is off the surface by more than [`Shape::rounding`]: a ray that
+    /// starts outside and leaves never finds the surface it left, however shallow its angle. Parts that meet at a seam
+    /// leave no gap: closed shapes intersect spans, not parts one by one.
+    fn intersect(&self, ray: &Ray, t_max: f64) -> Option<Crossing>;
+
+    /// Puts a point that is on `part` but for rounding back on it, as near as numbers allow, and gives the outward
+    /// normal there (of any length but zero).
+    fn surface(&self, point: DVec3, part: u32) -> (DVec3, DVec3);
+
+    /// Texture coordinates of a point on `part`.
+    fn uv(&self, point: DVec3, part: u32) -> DVec2;
+
+    /// True for a point inside; always false for a shape that is not closed.
+    fn contains(&self, point: DVec3) -> bool;
+
+    /// How far from the surface, along its normal, [`Shape::intersect`] may see a point that [`Shape::surface`] gave.
+    fn rounding(&self) -> f64;
+}

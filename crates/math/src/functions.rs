@@ -1,0 +1,144 @@
+//! Transcendental functions that give the same bits on every machine.
+//!
+//! The platform's own differ in their last bits between systems, so pictures may not depend on them; a lint forbids
+//! them. Most come from `libm`, which is written in plain arithmetic. [`exp`] and [`pow`] in single precision are ours,
+//! because shading calls them for every ray and `libm`'s `pow` is several times slower than needed.
+
+/// Sine of an angle in radians.
+pub fn sin(x: f64) -> f64 {
+    libm::sin(x)
+}
+
+/// Cosine of an angle in radians.
+pub fn cos(x: f64) -> f64 {
+    libm::cos(x)
+}
+
+/// Tangent of an angle in radians.
+pub fn tan(x: f64) -> f64 {
+    libm::tan(x)
+}
+
+/// Arc sine, in radians.
+pub fn asin(x: f64) -> f64 {
+    libm::asin(x)
+}
+
+/// Arc cosine, in radians.
+pub fn acos(x: f64) -> f64 {
+    libm::acos(x)
+}
+
+/// The angle of the point (x, y), in radians, in (-π, π].
+pub fn atan2(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
+
+/// Cube root.
+pub fn cbrt(x: f64) -> f64 {
+    libm::cbrt(x)
+}
+
+/// e to the power `x`, in single precision with a relative error below 2⁻²³; 0 below about -87, infinite above 88.7.
+///
+/// Cody and Waite's reduction: x = n ln 2 + r with |r| ≤ ln 2 / 2, a polynomial for eʳ, and n put into the exponent.
+/// Evaluated in double precision, where a Taylor polynomial of degree 7 leaves an error near 3·10⁻⁹.
+pub fn exp(x: f32) -> f32 {
+    if x > 88.8 {
+        return f32::INFINITY;
+    }
+    if x < -87.3 {
+        return 0.0;
+    }
+    exp2_of(f64::from(x) * std::f64::consts::LOG2_E) as f32
+}
+
+/// `base` to the power `exponent`, in single precision with a relative error below 2⁻²², for `base` ≥ 0.
+/// `pow(x, 0)` is 1, `pow(0, y)` is 0 for y > 0; a negative base gives NaN.
+pub fn pow(base: f32, exponent: f32) -> f32 {
+    if exponent == 0.0 || base == 1.0 {
+        return 1.0;
+    }
+    if base == 0.0 {
+        return if exponent > 0.0 { 0.0 } else { f32::INFINITY };
+    }
+    if base.is_nan() || base < 0.0 || exponent.is_nan() {
+        return f32::NAN;
+    }
+    if base.is_infinite() {
+        return if exponent > 0.0 { f32::INFINITY } else { 0.0 };
+    }
+    let power = f64::from(exponent) * log2_of(f64::from(base));
+    if power > 128.0 {
+        f32::INFINITY
+    } else if power < -150.0 {
+        0.0
+    } else {
+        exp2_of(power) as f32
+    }
+}
+
+/// 2 to the power `x`, for |x| ≤ 1000.
+fn exp2_of(x: f64) -> f64 {
+    let n = (x + 0.5).floor();
+    let r = (x - n) * std::f64::consts::LN_2;
+    let mut sum = 1.0 / 40320.0;
+    for k in [1.0 / 5040.0, 1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
+        sum = sum * r + k;
+    }
+    let two_to_n = f64::from_bits(((n as i64 + 1023) as u64) << 52);
+    sum * two_to_n
+}
+
+/// Base-2 logarithm of a positive, normal number: mantissa m in [√½, √2), ln m = 2 artanh((m-1)/(m+1)).
+fn log2_of(x: f64) -> f64 {
+    const MANTISSA: u64 = (1 << 52) - 1;
+    // Shifting by the bits of √½ makes the exponent field count from √½ instead of from 1.
+    let shifted = x.to_bits().wrapping_sub(0x3fe6_a09e_667f_3bcd);
+    let exponent = (shifted as i64) >> 52;
+    let m = f64::from_bits((shifted & MANTISSA).wrapping_add(0x3fe6_a09e_667f_3bcd));
+    let s = (m - 1.0) / (m + 1.0);
+    let s2 = s * s;
+    let mut sum = 1.0 / 13.0;
+    for k in [1.0 / 11.0, 1.0 / 9.0, 1.0 / 7.0, 1.0 / 5.0, 1.0 / 3.0, 1.0] {
+        sum = sum * s2 + k;
+    }
+    exponent as f64 + 2.0 * s * sum * std::f64::consts::LOG2_E
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exp_is_within_an_ulp_of_libm() {
+        for i in -87_000..88_000 {
+            let x = i as f32 * 0.001;
+            let exact = libm::exp(f64::from(x));
+            let error = (f64::from(exp(x)) - exact).abs() / exact;
+            assert!(error < 1.2e-7, "exp({x}): relative error {error}");
+        }
+        assert_eq!((exp(-200.0), exp(0.0), exp(200.0)), (0.0, 1.0, f32::INFINITY));
+    }
+
+    #[test]
+    fn pow_is_within_two_ulps_of_libm() {
+        for i in 1..2_000 {
+            let base = i as f32 * 0.001_7;
+            for exponent in [0.1, 1.0 / 2.4, 0.5, 1.0, 2.4, 5.0, 40.0, -3.0] {
+                let exact = libm::pow(f64::from(base), f64::from(exponent));
+                if exact > 1e-37 && exact < 1e38 {
+                    let error = (f64::from(pow(base, exponent)) - exact).abs() / exact;
+                    assert!(error < 2.4e-7, "pow({base}, {exponent}): relative error {error}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn pow_at_the_edges() {
+        assert_eq!((pow(0.0, 2.0), pow(0.0, 0.0), pow(2.0, 0.0), pow(1.0, 1e9)), (0.0, 1.0, 1.0, 1.0));
+        assert_eq!((pow(0.5, 1e6), pow(2.0, 1e6), pow(0.0, -1.0)), (0.0, f32::INFINITY, f32::INFINITY));
+        assert!(pow(-1.0, 2.0).is_nan() && pow(f32::NAN, 1.0).is_nan());
+    }
+}
