@@ -1,1 +1,32 @@
-//! durer
+//! durer: true pictures of geometry. A ray tracer with exact shapes, as a library.
+//!
+//! A picture is made by five values passed along one line; each arrow is a function here:
+//!
+//! ```text
+//! bytes ─load─▶ Scene ─check─▶ CheckedScene ─compile─▶ CompiledScene ─render─▶ Film ─develop─▶ Image ─encode─▶ bytes
+//! ```
+//!
+//! ```
+//! let loaded = durer::load_str("objects: [sphere: {radius: 1, material: {color: tomato}}]", "ball.yaml")?;
+//! let film = durer::render(&durer::compile(&loaded.scene), &durer::RenderOptions::default(), &())?;
+//! let image = film.develop();
+//! assert_eq!((image.width, image.height), (640, 480));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod files;
+
+pub use durer_formats::{
+    AssetError, Assets, Diagnostic, Diagnostics, FolderAssets, Limits, LoadOptions, Loaded, NoAssets, json_schema, load, load_file,
+    reference_markdown, to_yaml,
+};
+pub use durer_imaging as imaging;
+pub use durer_math as math;
+pub use durer_render::{
+    Bounds, CompiledScene, Contribution, Film, HitExplanation, LightExplanation, NotTraced, PixelExplanation, Progress,
+    RayCounts, RayExplanation, RayKind, Region, RenderError, RenderOptions, SampleExplanation, Source, compile, explain,
+    render,
+};
+pub use durer_scene as scene;
+pub use durer_scene::{CheckedScene, Scene};
+pub use files::{PictureFile, ReadError, WriteError, read_picture};

@@ -1,8 +1,17 @@
 //! Where does a ray meet a shape? Answers with numbers; knows no colour, material or file.
+//!
+//! A [`Primitive`] is an exact shape placed by an affine map. A [`World`] holds all of them and finds the first that a
+//! ray meets; a [`Surface`] is a point on one, from which new rays start without meeting it again.
 
 mod bounds;
+mod bvh;
+mod primitive;
 mod ray;
 mod shapes;
+mod simd;
+mod world;
 
 pub use bounds::Bounds;
+pub use primitive::{Primitive, Surface};
 pub use ray::{Crossing, Ray};
+pub use world::{Hit, World};

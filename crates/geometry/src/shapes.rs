@@ -10,7 +10,10 @@ pub(crate) mod cylinder;
 pub(crate) mod disc;
 pub(crate) mod plane;
 pub(crate) mod rectangle;
+mod span;
 pub(crate) mod sphere;
+#[cfg(test)]
+mod testing;
 pub(crate) mod torus;
 pub(crate) mod triangle;
 

@@ -1,5 +1,9 @@
 //! What a picture file held, as it held it.
 
+use durer_math::Rgb;
+
+use crate::{Image, Transfer};
+
 /// The pixels of a picture file, as stored: rows from the top, pixels from the left. Alpha is dropped (and said so).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bitmap {
@@ -22,4 +26,61 @@ pub enum Texels {
     U16(Vec<[u16; 3]>),
     /// Floating point: linear light, whatever the scene says of the file's encoding.
     F32(Vec<[f32; 3]>),
+}
+
+impl Bitmap {
+    /// The picture in linear light, `transfer` being how the file's whole numbers were made from it. Floating-point
+    /// texels are linear already and stay as they are.
+    pub fn to_image(&self, transfer: Transfer) -> Image {
+        let pixels = match &self.texels {
+            Texels::U8(texels) => {
+                let linear: Vec<f32> = (0..=255u8).map(|v| linear_from_u8(v, transfer)).collect();
+                texels.iter().map(|texel| Rgb::from(texel.map(|v| linear[usize::from(v)]))).collect()
+            }
+            Texels::U16(texels) => {
+                texels.iter().map(|texel| Rgb::from(texel.map(|v| linear_from_u16(v, transfer)))).collect()
+            }
+            Texels::F32(texels) => texels.iter().map(|&texel| Rgb::from(texel)).collect(),
+        };
+        Image { width: self.width, height: self.height, pixels }
+    }
+}
+
+fn linear_from_u8(value: u8, transfer: Transfer) -> f32 {
+    transfer.linear_from_stored(f32::from(value) / 255.0)
+}
+
+fn linear_from_u16(value: u16, transfer: Transfer) -> f32 {
+    transfer.linear_from_stored(f32::from(value) / 65535.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn one(texels: Texels, transfer: Transfer) -> Rgb {
+        Bitmap { width: 1, height: 1, texels, alpha_dropped: false }.to_image(transfer).pixel(0, 0)
+    }
+
+    #[test]
+    fn every_depth_reaches_black_and_white() {
+        for transfer in [Transfer::Srgb, Transfer::Linear] {
+            assert_eq!(one(Texels::U8(vec![[0, 255, 0]]), transfer), Rgb::new(0.0, 1.0, 0.0));
+            assert_eq!(one(Texels::U16(vec![[0, 65535, 0]]), transfer), Rgb::new(0.0, 1.0, 0.0));
+        }
+    }
+
+    #[test]
+    fn floats_are_linear_whatever_is_asked() {
+        let texels = Texels::F32(vec![[0.5, -1.0, 7.0]]);
+        assert_eq!(one(texels.clone(), Transfer::Srgb), Rgb::new(0.5, -1.0, 7.0));
+        assert_eq!(one(texels, Transfer::Linear), Rgb::new(0.5, -1.0, 7.0));
+    }
+
+    #[test]
+    fn whole_numbers_follow_the_curve() {
+        let srgb = one(Texels::U8(vec![[188, 188, 188]]), Transfer::Srgb);
+        assert!((srgb.r - 0.502_886).abs() < 1e-5, "{srgb:?}");
+        assert_eq!(one(Texels::U8(vec![[51, 51, 51]]), Transfer::Linear), Rgb::gray(0.2));
+    }
 }

@@ -1,19 +1,24 @@
 //! Pictures in memory, the files they come from and go to, and how two of them differ.
 //!
 //! An [`Image`] is linear light for people and programs to look at; a [`Bitmap`] is what a file held, as it held it,
-//! for textures.
+//! for textures. [`decode`] and [`encode`] work on bytes in memory; opening and writing files is the caller's job.
 
 mod bitmap;
 mod color;
 mod compare;
 mod decode;
 mod encode;
+mod false_color;
+mod files;
 mod flip;
 mod image;
+mod quantize;
 
 pub use bitmap::{Bitmap, Texels};
-pub use color::{Transfer, srgb_from_linear, linear_from_srgb};
-pub use compare::{Difference, compare};
+pub use color::{Transfer, linear_from_srgb, srgb_from_linear};
+pub use compare::{CompareError, Difference, compare};
 pub use decode::{DecodeError, DecodeLimits, decode};
-pub use encode::{EncodeError, EncodeOptions, FileFormat, encode};
+pub use encode::{EncodeError, EncodeOptions, ExrSamples, FileFormat, PngDepth, encode};
+pub use false_color::false_color;
+pub use flip::ErrorMap;
 pub use image::Image;

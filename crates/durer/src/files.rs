@@ -1,0 +1,133 @@
+//! Picture files: written whole or not at all.
+
+use durer_imaging::{Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, Image, decode, encode};
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// A place for a picture, found to be writable before any work is done for it.
+///
+/// The picture is written beside it under a temporary name and then renamed, so that a failed run leaves either the
+/// old file or none, never half a one. Dropping it without [`PictureFile::write`] leaves nothing behind.
+#[derive(Debug)]
+pub struct PictureFile {
+    path: PathBuf,
+    temporary: PathBuf,
+    file: Option<File>,
+}
+
+/// Why a picture could not be written.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// The picture does not fit the format.
+    Encode(EncodeError),
+    /// The system refused.
+    Io {
+        /// The file it refused.
+        path: PathBuf,
+        /// Its words.
+        error: io::Error,
+    },
+}
+
+/// Why a picture could not be read.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// It is not a picture that we know.
+    Decode(PathBuf, DecodeError),
+    /// The system refused.
+    Io(PathBuf, io::Error),
+}
+
+impl PictureFile {
+    /// Makes sure that a file can be written at `path`, by opening a temporary one beside it.
+    pub fn create(path: &Path) -> Result<PictureFile, WriteError> {
+        let io = |error| WriteError::Io { path: path.to_owned(), error };
+        let name = path.file_name().ok_or_else(|| io(io::ErrorKind::InvalidFilename.into()))?;
+        if path.is_dir() {
+            return Err(io(io::ErrorKind::IsADirectory.into()));
+        }
+        let mut hidden = OsString::from(".");
+        hidden.push(name);
+        hidden.push(format!(".{}.part", std::process::id()));
+        let temporary = path.with_file_name(hidden);
+        let file = File::create(&temporary).map_err(io)?;
+        Ok(PictureFile { path: path.to_owned(), temporary, file: Some(file) })
+    }
+
+    /// Writes the picture and gives it its name; gives the number of bytes.
+    pub fn write(mut self, image: &Image, options: &EncodeOptions) -> Result<usize, WriteError> {
+        let bytes = encode(image, options).map_err(WriteError::Encode)?;
+        let written = match self.file.take() {
+            Some(mut file) => file.write_all(&bytes).and_then(|()| file.sync_all()),
+            None => Ok(()),
+        };
+        written
+            .and_then(|()| fs::rename(&self.temporary, &self.path))
+            .map_err(|error| WriteError::Io { path: self.path.clone(), error })?;
+        Ok(bytes.len())
+    }
+}
+
+impl Drop for PictureFile {
+    fn drop(&mut self) {
+        self.file = None;
+        // After a successful rename there is nothing to remove.
+        let _ = fs::remove_file(&self.temporary);
+    }
+}
+
+/// Reads a picture file of any format that we know.
+pub fn read_picture(path: &Path, limits: &DecodeLimits) -> Result<Bitmap, ReadError> {
+    let bytes = fs::read(path).map_err(|error| ReadError::Io(path.to_owned(), error))?;
+    decode(&bytes, limits).map_err(|error| ReadError::Decode(path.to_owned(), error))
+}
+
+impl std::fmt::Display for WriteError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            WriteError::Encode(error) => error.fmt(f),
+            WriteError::Io { path, error } => write!(f, "cannot write {}: {error}", path.display()),
+        }
+    }
+}
+
+impl std::error::Error for WriteError {}
+
+impl std::fmt::Display for ReadError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            ReadError::Decode(path, error) => write!(f, "cannot read {}: {error}", path.display()),
+            ReadError::Io(path, error) => write!(f, "cannot read {}: {error}", path.display()),
+        }
+    }
+}
+
+impl std::error::Error for ReadError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_abandoned_picture_leaves_nothing_and_a_written_one_only_itself() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let names = || fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name()).collect::<Vec<_>>();
+        drop(PictureFile::create(&path).unwrap());
+        assert!(names().is_empty());
+        let written = PictureFile::create(&path).unwrap().write(&Image::new(2, 2), &EncodeOptions::default()).unwrap();
+        assert_eq!(names(), ["a.png"]);
+        assert_eq!(fs::metadata(&path).unwrap().len(), written as u64);
+    }
+
+    #[test]
+    fn a_missing_folder_is_found_before_the_work() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(PictureFile::create(&folder.path().join("no/such/a.png")).is_err());
+        assert!(PictureFile::create(folder.path()).is_err());
+    }
+}

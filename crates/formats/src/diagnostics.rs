@@ -1,0 +1,183 @@
+//! What is wrong with a file, and where: shown to people like rustc's messages, given to programs as JSON.
+
+mod json;
+mod show;
+
+use crate::native::tree::Span;
+use std::ops::Range;
+
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// The scene cannot be used.
+    Error,
+    /// The scene can be used; but look at this.
+    Warning,
+}
+
+/// One thing that is wrong, and its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Diagnostic {
+    /// How bad it is.
+    pub severity: Severity,
+    /// What is wrong, in one phrase.
+    pub message: String,
+    /// The name of the file.
+    pub file: String,
+    /// The line, from 1.
+    pub line: usize,
+    /// The column of its first character, from 1, counted in characters.
+    pub column: usize,
+    /// The bytes of the file that it is about.
+    pub span: Range<usize>,
+    /// What to say right beside the place.
+    pub label: Option<String>,
+    /// What to do about it.
+    pub help: Option<String>,
+    /// Other places that matter.
+    pub related: Vec<Related>,
+}
+
+/// Another place that matters to a [`Diagnostic`], in the same file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Related {
+    /// Why it matters.
+    pub label: String,
+    /// The line, from 1.
+    pub line: usize,
+    /// The column, from 1, counted in characters.
+    pub column: usize,
+    /// The bytes of the file.
+    pub span: Range<usize>,
+}
+
+/// All that is wrong with a file, in the order of the file, with what is needed to show it.
+///
+/// `Display` shows it in plain text; see also [`render`](Diagnostics::render) and [`to_json`](Diagnostics::to_json).
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Diagnostics {
+    /// The first of them, at most [`Limits::max_diagnostics`](crate::Limits::max_diagnostics).
+    pub list: Vec<Diagnostic>,
+    /// How many more there are.
+    pub omitted: usize,
+    source: String,
+}
+
+/// A diagnostic in the making: places are spans yet.
+#[derive(Clone, Debug)]
+pub(crate) struct Complaint {
+    severity: Severity,
+    span: Span,
+    message: String,
+    label: Option<String>,
+    help: Option<String>,
+    related: Vec<(Span, String)>,
+}
+
+impl Complaint {
+    pub(crate) fn error(span: Span, message: impl Into<String>) -> Complaint {
+        let (label, help, related) = (None, None, Vec::new());
+        Complaint { severity: Severity::Error, span, message: message.into(), label, help, related }
+    }
+
+    pub(crate) fn warning(span: Span, message: impl Into<String>) -> Complaint {
+        Complaint { severity: Severity::Warning, ..Complaint::error(span, message) }
+    }
+
+    pub(crate) fn label(self, label: impl Into<String>) -> Complaint {
+        Complaint { label: Some(label.into()), ..self }
+    }
+
+    pub(crate) fn help(self, help: impl Into<String>) -> Complaint {
+        Complaint { help: Some(help.into()), ..self }
+    }
+
+    pub(crate) fn maybe_help(self, help: Option<String>) -> Complaint {
+        Complaint { help: help.or(self.help), ..self }
+    }
+
+    pub(crate) fn also(mut self, span: Span, label: impl Into<String>) -> Complaint {
+        self.related.push((span, label.into()));
+        self
+    }
+
+    pub(crate) fn is_error(&self) -> bool {
+        self.severity == Severity::Error
+    }
+
+    fn into_diagnostic(self, file: &str, source: &str) -> Diagnostic {
+        let (line, column) = line_and_column(source, self.span.start);
+        let related = self.related.into_iter().map(|(span, label)| {
+            let (line, column) = line_and_column(source, span.start);
+            Related { label, line, column, span: span.start..span.end }
+        });
+        Diagnostic {
+            severity: self.severity,
+            message: self.message,
+            file: file.to_owned(),
+            line,
+            column,
+            span: self.span.start..self.span.end,
+            label: self.label,
+            help: self.help,
+            related: related.collect(),
+        }
+    }
+}
+
+impl Diagnostics {
+    /// Sorts by place and keeps the first `most`.
+    pub(crate) fn new(mut complaints: Vec<Complaint>, file: &str, source: &str, most: usize) -> Diagnostics {
+        complaints.sort_by_key(|complaint| complaint.span.start);
+        let omitted = complaints.len().saturating_sub(most);
+        complaints.truncate(most);
+        let list = complaints.into_iter().map(|complaint| complaint.into_diagnostic(file, source)).collect();
+        Diagnostics { list, omitted, source: source.to_owned() }
+    }
+
+    /// True if there is nothing to say.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+}
+
+impl std::error::Error for Diagnostics {}
+
+/// Line and column, from 1, of a byte of `text`.
+fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
+    let before = &text[..byte.min(text.len())];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    let line = before.bytes().filter(|&b| b == b'\n').count() + 1;
+    let bom = usize::from(line == 1 && text.starts_with('\u{feff}'));
+    (line, (before[line_start..].chars().count() + 1).saturating_sub(bom).max(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_counted_in_characters() {
+        assert_eq!(line_and_column("a\näöx", "a\näö".len()), (2, 3));
+        assert_eq!(line_and_column("", 0), (1, 1));
+        assert_eq!(line_and_column("\u{feff}ab", 4), (1, 2));
+    }
+
+    #[test]
+    fn long_lines_are_cut_around_the_place() {
+        let source = format!("{}BAD{}", "ä ".repeat(50_000), " ö".repeat(50_000));
+        let start = source.find("BAD").unwrap();
+        let complaint = Complaint::error(Span::new(start, start + 3), "wrong").label("this");
+        let shown = Diagnostics::new(vec![complaint], "long.yaml", &source, 5).to_string();
+        assert!(shown.len() < 1000 && shown.contains("BAD") && shown.contains("^^^ this"), "{shown}");
+    }
+
+    #[test]
+    fn what_is_left_out_is_counted() {
+        let complaints = (0..5).map(|i| Complaint::error(Span::new(5 - i, 6 - i), format!("no {i}"))).collect();
+        let all = Diagnostics::new(complaints, "x", "abcdef", 2);
+        assert_eq!((all.list.len(), all.omitted, all.list[0].message.as_str()), (2, 3, "no 4"));
+        assert!(all.to_string().contains("and 3 more"));
+    }
+}

@@ -1,0 +1,95 @@
+//! Diagnostics for people, in the manner of rustc.
+
+use super::{Diagnostic, Diagnostics, Severity};
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use std::fmt;
+use std::ops::Range;
+
+/// Lines longer than this, in bytes, are cut around the place.
+const LONG_LINE: usize = 160;
+/// How much is kept on each side of the place in a cut line.
+const KEPT: usize = 60;
+
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.render(false))
+    }
+}
+
+impl Diagnostics {
+    /// All of them as text, each with the lines of the file that it is about; in colour with ANSI escapes.
+    pub fn render(&self, color: bool) -> String {
+        let renderer = if color { Renderer::styled() } else { Renderer::plain() };
+        let mut text: String = self.list.iter().map(|one| render_one(one, &self.source, &renderer) + "\n\n").collect();
+        if self.omitted > 0 {
+            text += &format!("and {} more\n\n", self.omitted);
+        }
+        text.truncate(text.trim_end().len());
+        text
+    }
+}
+
+fn render_one(diagnostic: &Diagnostic, source: &str, renderer: &Renderer) -> String {
+    let level = match diagnostic.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+    };
+    let primary = (diagnostic.span.clone(), diagnostic.label.as_deref());
+    let mut group = level.primary_title(&diagnostic.message).element(snippet(diagnostic, source, primary, AnnotationKind::Primary));
+    for place in &diagnostic.related {
+        let secondary = (place.span.clone(), Some(place.label.as_str()));
+        group = group.element(snippet(diagnostic, source, secondary, AnnotationKind::Context));
+    }
+    if let Some(help) = &diagnostic.help {
+        group = group.element(Level::HELP.message(help));
+    }
+    let report: [Group<'_>; 1] = [group];
+    renderer.render(&report)
+}
+
+/// The lines around one place, the line itself cut if it is long.
+fn snippet<'a>(
+    diagnostic: &'a Diagnostic,
+    source: &'a str,
+    (span, label): (Range<usize>, Option<&'a str>),
+    kind: AnnotationKind,
+) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
+    let span = within(source, &span);
+    let start = source[..span.start].rfind('\n').map_or(0, |newline| newline + 1);
+    let end = source[start..].find('\n').map_or(source.len(), |newline| start + newline);
+    let line_number = source[..start].bytes().filter(|&b| b == b'\n').count() + 1;
+    let (cut, span) = cut_line(&source[start..end], span.start - start..span.end.min(end).max(span.start) - start);
+    Snippet::source(cut)
+        .line_start(line_number)
+        .path(diagnostic.file.as_str())
+        .annotation(kind.span(span).label(label))
+}
+
+/// The line, or the part of it around the place with `…` for what is missing; and the place in that part.
+fn cut_line(line: &str, span: Range<usize>) -> (String, Range<usize>) {
+    let line = line.trim_end_matches('\r');
+    let span = span.start.min(line.len())..span.end.min(line.len());
+    if line.len() <= LONG_LINE {
+        return (line.to_owned(), span);
+    }
+    let from = boundary(line, span.start.saturating_sub(KEPT));
+    let to = boundary(line, (span.end.min(span.start + LONG_LINE) + KEPT).min(line.len()));
+    let before = if from > 0 { "…" } else { "" };
+    let after = if to < line.len() { "…" } else { "" };
+    let shift = |at: usize| at.min(to) - from + before.len();
+    let part = format!("{before}{}{after}", &line[from..to]);
+    (part, shift(span.start)..shift(span.end))
+}
+
+/// The span, on character boundaries inside the text.
+fn within(text: &str, span: &Range<usize>) -> Range<usize> {
+    let start = boundary(text, span.start.min(text.len()));
+    start..boundary(text, span.end.min(text.len())).max(start)
+}
+
+fn boundary(text: &str, mut at: usize) -> usize {
+    while !text.is_char_boundary(at) {
+        at -= 1;
+    }
+    at
+}

@@ -1,0 +1,232 @@
+//! Reading values out of the tree: complaints are gathered, and reading goes on.
+
+use super::suggest;
+use super::tree::{Entry, Node, NodeKind, Span, shorten};
+use super::value::Value;
+use crate::Limits;
+use crate::assets::Assets;
+use crate::diagnostics::Complaint;
+use durer_scene::{ImageId, Scene};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// What reading a file has gathered so far.
+pub(crate) struct Decoder<'a> {
+    pub(crate) complaints: Vec<Complaint>,
+    pub(crate) assets: &'a dyn Assets,
+    pub(crate) limits: &'a Limits,
+    /// The scene; its textures, materials and images grow as they are met.
+    pub(crate) scene: Scene,
+    /// Named textures and materials, by name.
+    pub(crate) texture_names: BTreeMap<String, u32>,
+    pub(crate) material_names: BTreeMap<String, u32>,
+    /// The nodes that textures, materials and images were read from, by id.
+    pub(crate) texture_nodes: Vec<Rc<Node>>,
+    pub(crate) material_nodes: Vec<Rc<Node>>,
+    pub(crate) image_nodes: Vec<Rc<Node>>,
+    /// Images by the name of their file; `None` if it could not be read.
+    pub(crate) images: BTreeMap<String, Option<ImageId>>,
+    /// Texture entries being entered by name, to make one definition per name.
+    pub(crate) texels: u64,
+}
+
+impl<'a> Decoder<'a> {
+    pub(crate) fn new(assets: &'a dyn Assets, limits: &'a Limits) -> Decoder<'a> {
+        Decoder {
+            complaints: Vec::new(),
+            assets,
+            limits,
+            scene: Scene::default(),
+            texture_names: BTreeMap::new(),
+            material_names: BTreeMap::new(),
+            texture_nodes: Vec::new(),
+            material_nodes: Vec::new(),
+            image_nodes: Vec::new(),
+            images: BTreeMap::new(),
+            texels: 0,
+        }
+    }
+
+    /// Complains that `node` is not a `T`.
+    pub(crate) fn expected<T: Value>(&mut self, node: &Node) -> Option<T> {
+        self.expected_noun(node, &T::noun(), T::advice(node))
+    }
+
+    /// Complains that `node` is not what `noun` says.
+    pub(crate) fn expected_noun<T>(&mut self, node: &Node, noun: &str, advice: Option<String>) -> Option<T> {
+        let message = format!("expected {noun}, found {}", node.found());
+        self.complain(Complaint::error(node.span, message).maybe_help(advice))
+    }
+
+    /// Complains about `node`.
+    pub(crate) fn refuse<T>(&mut self, node: &Node, message: &str) -> Option<T> {
+        self.complain(Complaint::error(node.span, message))
+    }
+
+    pub(crate) fn complain<T>(&mut self, complaint: Complaint) -> Option<T> {
+        self.complaints.push(complaint);
+        None
+    }
+}
+
+/// Reads the fields of one mapping, and notices those that nobody asked for.
+pub(crate) struct Fields<'n, 'd, 'a> {
+    pub(crate) cx: &'d mut Decoder<'a>,
+    /// What messages call the thing, and where its name stands.
+    title: &'static str,
+    title_span: Span,
+    example: &'static str,
+    entries: &'n [Entry],
+    asked: Vec<&'static str>,
+    broken: bool,
+}
+
+impl<'n, 'd, 'a> Fields<'n, 'd, 'a> {
+    /// The fields of the mapping `node`.
+    pub(crate) fn of_record(node: &'n Rc<Node>, cx: &'d mut Decoder<'a>, title: &'static str) -> Option<Self> {
+        let NodeKind::Mapping(entries) = &node.kind else {
+            let noun = format!("the fields of `{title}`");
+            return cx.expected_noun(node, &noun, None);
+        };
+        Some(Fields::new(cx, title, first_key(node), entries))
+    }
+
+    /// The fields in `kind: {fields}`, or none if `node` is just the word `kind`.
+    pub(crate) fn of_kind(
+        node: &'n Rc<Node>,
+        cx: &'d mut Decoder<'a>,
+        noun: &'static str,
+        words: &[&'static str],
+    ) -> Option<Self> {
+        let (key, value) = match &node.kind {
+            NodeKind::Scalar { .. } if !node.is_null() => (node, None),
+            NodeKind::Mapping(entries) => match one_kind(node, entries, noun, words) {
+                Ok((key, value)) => (key, Some(value)),
+                Err(complaint) => return cx.complain(*complaint),
+            },
+            NodeKind::Scalar { .. } | NodeKind::Sequence(_) => {
+                let help = suggest::did_you_mean("", words, &format!("kinds of {noun}"));
+                return cx.expected_noun(node, &format!("{} {noun}", article(noun)), Some(help));
+            }
+        };
+        let written = key.text().unwrap_or_default();
+        let Some(word) = words.iter().find(|word| **word == written) else {
+            return cx.complain(unknown_kind(key, value, noun, words));
+        };
+        let entries = match value.map(|value| (&value.kind, value)) {
+            None => &[][..],
+            Some((_, value)) if value.is_null() => &[][..],
+            Some((NodeKind::Mapping(entries), _)) => entries,
+            Some((_, value)) => {
+                let advice = Some(format!("write `{word}: {{…}}`"));
+                return cx.expected_noun(value, &format!("the fields of `{word}`"), advice);
+            }
+        };
+        Some(Fields::new(cx, word, key.span, entries))
+    }
+
+    fn new(cx: &'d mut Decoder<'a>, title: &'static str, title_span: Span, entries: &'n [Entry]) -> Self {
+        Fields { cx, title, title_span, example: "", entries, asked: Vec::new(), broken: false }
+    }
+
+    /// The word of the kind.
+    pub(crate) fn word(&self) -> &'static str {
+        self.title
+    }
+
+    /// An example for messages about missing fields.
+    pub(crate) fn set_example(&mut self, example: &'static str) {
+        self.example = example;
+    }
+
+    /// The entry of `key`, if it is given.
+    pub(crate) fn entry(&mut self, key: &'static str) -> Option<&'n Entry> {
+        self.asked.push(key);
+        self.entries.iter().find(|(name, _)| name.text() == Some(key))
+    }
+
+    /// A field that must be given.
+    pub(crate) fn required<T: Value>(&mut self, key: &'static str) -> T {
+        if self.entry(key).is_none() {
+            let message = format!("`{}` needs `{key}`", self.title);
+            let help = match self.example {
+                "" => format!("`{key}` is {}", T::noun()),
+                example => format!("for example `{example}`"),
+            };
+            self.break_with(Complaint::error(self.title_span, message).help(help));
+            return T::stand_in();
+        }
+        self.asked.pop();
+        self.or(key, T::stand_in)
+    }
+
+    /// A field with a default.
+    pub(crate) fn or<T: Value>(&mut self, key: &'static str, default: impl FnOnce() -> T) -> T {
+        match self.entry(key) {
+            None => default(),
+            Some((_, value)) => T::decode(value, self.cx).unwrap_or_else(|| {
+                self.broken = true;
+                default()
+            }),
+        }
+    }
+
+    /// Complains, and remembers that the thing is broken.
+    pub(crate) fn break_with(&mut self, complaint: Complaint) {
+        self.broken = true;
+        self.cx.complaints.push(complaint);
+    }
+
+    /// Refuses fields that nobody asked for; true if all went well.
+    pub(crate) fn finish(mut self) -> bool {
+        for (key, value) in self.entries {
+            let name = key.text().unwrap_or_default();
+            if !self.asked.contains(&name) {
+                let help = super::hints::unknown_field(self.title, name, value, &self.asked);
+                let message = match self.title {
+                    "scene" => format!("unknown field `{}`", shorten(name)),
+                    title => format!("unknown field `{}` of `{title}`", shorten(name)),
+                };
+                self.break_with(Complaint::error(key.span, message).help(help));
+            }
+        }
+        !self.broken
+    }
+}
+
+/// The one entry of a mapping that says the kind.
+fn one_kind<'n>(
+    node: &Node,
+    entries: &'n [Entry],
+    noun: &str,
+    words: &[&str],
+) -> Result<(&'n Rc<Node>, &'n Rc<Node>), Box<Complaint>> {
+    match entries {
+        [] => {
+            let help = suggest::did_you_mean("", words, &format!("kinds of {noun}"));
+            Err(Box::new(Complaint::error(node.span, format!("this {noun} is empty")).help(help)))
+        }
+        [(key, value)] => Ok((key, value)),
+        [first, others @ ..] => Err(Box::new(super::hints::several_kinds(first, others, noun, words))),
+    }
+}
+
+fn unknown_kind(key: &Node, value: Option<&Rc<Node>>, noun: &str, words: &[&str]) -> Complaint {
+    let written = key.text().unwrap_or_default();
+    let message = format!("unknown {noun} `{}`", shorten(written));
+    let help = super::hints::unknown_kind(written, value.map(Rc::as_ref), noun, words);
+    Complaint::error(key.span, message).help(help)
+}
+
+/// Where a mapping is underlined: at its first key if it covers several lines.
+fn first_key(node: &Node) -> Span {
+    match &node.kind {
+        NodeKind::Mapping(entries) => entries.first().map_or(node.span, |(key, _)| key.span),
+        NodeKind::Scalar { .. } | NodeKind::Sequence(_) => node.span,
+    }
+}
+
+/// "a" or "an".
+pub(crate) fn article(noun: &str) -> &'static str {
+    if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
+}

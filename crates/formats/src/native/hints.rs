@@ -1,0 +1,87 @@
+//! What to say to mistakes that people who come from other programs make.
+
+use super::suggest;
+use super::tree::{Entry, Node, shorten};
+use crate::diagnostics::Complaint;
+
+const STEPS: [&str; 4] = ["translate", "rotate", "scale", "matrix"];
+
+/// Help for a field that `title` does not have.
+pub(crate) fn unknown_field(title: &str, name: &str, value: &Node, known: &[&str]) -> String {
+    if STEPS.contains(&name) && known.contains(&"transform") {
+        let help = "put it under `transform:`, a list of steps";
+        return match name {
+            "rotate" => format!("{help}: `transform: [rotate: {{y: 45}}]`"),
+            _ => format!("{help}: `transform: [translate: [0, 1, 0], scale: 2]`"),
+        };
+    }
+    if title == "camera" && name.starts_with("horizontal") || matches!(name, "hfov" | "fovx" | "xfov") && title == "camera" {
+        return "`fov` is the vertical angle of view, in degrees".to_owned();
+    }
+    if name == "opacity" || name == "alpha" {
+        return "write `transparency`, which is 1 - opacity".to_owned();
+    }
+    if matches!(name, "width" | "height" | "resolution") && matches!(title, "scene" | "camera" | "render") {
+        return "the picture's size stands under `picture:`: `picture: {width: 640, height: 480}`".to_owned();
+    }
+    if name == "type" || name == "kind" {
+        let kind = value.text().unwrap_or("sphere");
+        return format!("the kind is written as the key: `- {}: {{…}}`", shorten(kind));
+    }
+    if title == "scene" && matches!(name, "sphere" | "plane" | "box" | "cylinder" | "cone" | "disc" | "torus") {
+        return format!("put it under `objects:`, as a list item: `- {name}: {{…}}`");
+    }
+    if name == "texture" && known.contains(&"color") {
+        return "a texture is given as `color`: `color: {checker: {…}}`, or the name of a texture".to_owned();
+    }
+    if matches!(name, "color" | "colour" | "texture") && known.contains(&"material") {
+        return "it is part of the material: `material: {color: …}`".to_owned();
+    }
+    suggest::did_you_mean(name, known, &format!("fields of `{title}`"))
+}
+
+/// Help for a kind that does not exist.
+pub(crate) fn unknown_kind(word: &str, value: Option<&Node>, noun: &str, words: &[&str]) -> String {
+    if (word == "type" || word == "kind") && value.is_some() {
+        let kind = value.and_then(Node::text).unwrap_or("sphere");
+        return format!("the kind is written as the key: `{}: {{…}}`", shorten(kind));
+    }
+    if noun == "light" && word == "ambient" {
+        return "ambient light is a field of the scene: `ambient: 1`, beside `lights:`".to_owned();
+    }
+    if noun == "object" && matches!(word, "mesh" | "obj" | "difference" | "intersection" | "csg") {
+        let help = suggest::list(words);
+        return format!("durer does not have it yet; the objects are {help}");
+    }
+    suggest::did_you_mean(word, words, &format!("kinds of {noun}"))
+}
+
+/// A mapping where one kind is expected has several keys.
+pub(crate) fn several_kinds(first: &Entry, others: &[Entry], noun: &str, words: &[&str]) -> Complaint {
+    let entries = || std::iter::once(first).chain(others);
+    let name = |entry: &Entry| entry.0.text().unwrap_or_default().to_owned();
+    if let Some((_, kind)) = entries().find(|entry| matches!(name(entry).as_str(), "type" | "kind")) {
+        let word = shorten(kind.text().unwrap_or("sphere"));
+        let complaint = Complaint::error(kind.span, format!("the kind of {noun} is not a field"));
+        return complaint.help(format!("the kind is written as the key: `{word}: {{…}}`"));
+    }
+    let mut kinds = entries().filter(|entry| words.contains(&name(entry).as_str()));
+    match (kinds.next(), kinds.next()) {
+        (Some(kind), None) => {
+            let word = name(kind);
+            let stray = entries().find(|entry| name(entry) != word).unwrap_or(first);
+            let message = format!("`{}` stands beside `{word}`, not in it", shorten(&name(stray)));
+            let help = format!("indent it further than `{word}`, or write `{word}: {{{}: …}}`", shorten(&name(stray)));
+            Complaint::error(stray.0.span, message).help(help).also(kind.0.span, "the kind")
+        }
+        (Some(kind), Some(second)) => {
+            let message = format!("`{}` and `{}` in one {noun}", name(kind), name(second));
+            let help = format!("begin the second {noun} with `- ` on a line of its own");
+            Complaint::error(second.0.span, message).help(help).also(kind.0.span, "the first kind")
+        }
+        (None, _) => {
+            let help = unknown_kind(&name(first), Some(&first.1), noun, words);
+            Complaint::error(first.0.span, format!("unknown {noun} `{}`", shorten(&name(first)))).help(help)
+        }
+    }
+}

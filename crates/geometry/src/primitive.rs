@@ -1,0 +1,236 @@
+//! A shape placed in the world, and the points on it from which new rays may start.
+
+use crate::shapes::{
+    Shape, cone::Cone, cuboid::Cuboid, cylinder::Cylinder, disc::Disc, plane::Plane, rectangle::Rectangle,
+    sphere::Sphere, torus::Torus, triangle::Triangle,
+};
+use crate::{Bounds, Crossing, Ray};
+use durer_math::{DAffine3, DMat3, DVec2, DVec3, rotation_between};
+
+/// A shape in its canonical space. To add one, see CONTRIBUTING.md.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    Plane(Plane),
+    Sphere(Sphere),
+    Cuboid(Cuboid),
+    Cylinder(Cylinder),
+    Cone(Cone),
+    Disc(Disc),
+    Rectangle(Rectangle),
+    Triangle(Triangle),
+    Torus(Torus),
+}
+
+/// Calls a method of [`Shape`] on whatever shape it is.
+macro_rules! each_kind {
+    ($kind:expr, $shape:ident => $call:expr) => {
+        match $kind {
+            Kind::Plane($shape) => $call,
+            Kind::Sphere($shape) => $call,
+            Kind::Cuboid($shape) => $call,
+            Kind::Cylinder($shape) => $call,
+            Kind::Cone($shape) => $call,
+            Kind::Disc($shape) => $call,
+            Kind::Rectangle($shape) => $call,
+            Kind::Triangle($shape) => $call,
+            Kind::Torus($shape) => $call,
+        }
+    };
+}
+
+/// A shape placed in the world by an affine map, which may scale, shear and mirror it.
+#[derive(Clone, Copy, Debug)]
+pub struct Primitive {
+    kind: Kind,
+    /// A bit for each class of rays that sees it; a query names the classes that it asks for.
+    pub mask: u32,
+    /// Where the origin of the canonical space is, in the world.
+    origin: DVec3,
+    world_from_shape: DMat3,
+    shape_from_world: DMat3,
+    /// Norms (greatest sum of a row) of the two matrices, for bounds on rounding errors.
+    norms: [f64; 2],
+}
+
+/// A point on a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// The point, in world space, as near to the surface as numbers allow.
+    pub point: DVec3,
+    /// The outward normal, in world space, of unit length.
+    pub normal: DVec3,
+    /// How far from `point` along the normal one is surely on that side of the surface, whatever is rounded.
+    pub offset: f64,
+}
+
+impl Surface {
+    /// The ray from here on the side that the normal points to.
+    pub fn ray_outside(&self, direction: DVec3) -> Ray {
+        Ray { origin: self.point + self.normal * self.offset, direction }
+    }
+
+    /// The ray from here on the other side.
+    pub fn ray_inside(&self, direction: DVec3) -> Ray {
+        Ray { origin: self.point - self.normal * self.offset, direction }
+    }
+}
+
+/// The constructors take measures in an object's space, and the map from there to the world.
+impl Primitive {
+    /// The infinite plane through `point`, facing `normal`.
+    pub fn plane(point: DVec3, normal: DVec3, world_from_object: &DAffine3) -> Primitive {
+        let frame = DAffine3::from_mat3_translation(rotation_between(DVec3::Y, normal.normalize()), point);
+        Primitive::place(Kind::Plane(Plane {}), &(*world_from_object * frame))
+    }
+
+    /// A ball.
+    pub fn sphere(center: DVec3, radius: f64, world_from_object: &DAffine3) -> Primitive {
+        let frame = DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::splat(radius)), center);
+        Primitive::place(Kind::Sphere(Sphere {}), &(*world_from_object * frame))
+    }
+
+    /// A box along the object's axes.
+    pub fn cuboid(min: DVec3, max: DVec3, world_from_object: &DAffine3) -> Primitive {
+        let half = (max - min) * 0.5;
+        let frame = DAffine3::from_mat3_translation(DMat3::from_diagonal(half), min + half);
+        Primitive::place(Kind::Cuboid(Cuboid {}), &(*world_from_object * frame))
+    }
+
+    /// A cylinder between the middles of its ends; `open` ones have no caps.
+    pub fn cylinder(base: DVec3, top: DVec3, radius: f64, open: bool, world_from_object: &DAffine3) -> Primitive {
+        let half_axis = (top - base) * 0.5;
+        let frame = axial_frame(half_axis, radius, base + half_axis);
+        Primitive::place(Kind::Cylinder(Cylinder { open }), &(*world_from_object * frame))
+    }
+
+    /// A cone or frustum with the radii `[at base, at top]`; `open` ones have no caps.
+    pub fn cone(base: DVec3, top: DVec3, radii: [f64; 2], open: bool, world_from_object: &DAffine3) -> Primitive {
+        let largest = radii[0].max(radii[1]);
+        let cone = Cone { base_radius: radii[0] / largest, top_radius: radii[1] / largest, open };
+        Primitive::place(Kind::Cone(cone), &(*world_from_object * axial_frame(top - base, largest, base)))
+    }
+
+    /// A flat disc with the radii `[of the hole, of the rim]`.
+    pub fn disc(center: DVec3, normal: DVec3, radii: [f64; 2], world_from_object: &DAffine3) -> Primitive {
+        let disc = Disc { inner_radius: radii[0] / radii[1] };
+        let frame = axial_frame(normal.normalize() * radii[1], radii[1], center);
+        Primitive::place(Kind::Disc(disc), &(*world_from_object * frame))
+    }
+
+    /// The parallelogram at `corner` between two edges; it faces `edges[0] × edges[1]`.
+    pub fn rectangle(corner: DVec3, edges: [DVec3; 2], world_from_object: &DAffine3) -> Primitive {
+        let normal = edges[0].cross(edges[1]);
+        // Any length serves; one like the edges' keeps the map well-conditioned.
+        let normal = normal * (normal.length().sqrt() / normal.length());
+        let frame = DAffine3::from_mat3_translation(DMat3::from_cols(edges[0], normal, edges[1]), corner);
+        Primitive::place(Kind::Rectangle(Rectangle {}), &(*world_from_object * frame))
+    }
+
+    /// A triangle; it faces the side from which its vertices run counter-clockwise.
+    pub fn triangle(vertices: [DVec3; 3], uvs: [DVec2; 3], world_from_object: &DAffine3) -> Primitive {
+        let mut vertices = vertices.map(|v| world_from_object.transform_point3(v));
+        let mut uvs = uvs;
+        if world_from_object.matrix3.determinant() < 0.0 {
+            // A mirrored triangle keeps its front side.
+            vertices.swap(1, 2);
+            uvs.swap(1, 2);
+        }
+        Primitive::place(Kind::Triangle(Triangle { vertices, uvs }), &DAffine3::IDENTITY)
+    }
+
+    /// A torus with the radii `[of the ring, of the tube]`.
+    pub fn torus(center: DVec3, axis: DVec3, radii: [f64; 2], world_from_object: &DAffine3) -> Primitive {
+        let torus = Torus { tube_radius: radii[1] / radii[0] };
+        let frame = axial_frame(axis.normalize() * radii[0], radii[0], center);
+        Primitive::place(Kind::Torus(torus), &(*world_from_object * frame))
+    }
+
+    fn place(kind: Kind, world_from_shape: &DAffine3) -> Primitive {
+        let world = world_from_shape.matrix3;
+        let inverse = world.inverse();
+        Primitive {
+            kind,
+            mask: u32::MAX,
+            origin: world_from_shape.translation,
+            world_from_shape: world,
+            shape_from_world: inverse,
+            norms: [row_norm(&world), row_norm(&inverse)],
+        }
+    }
+}
+
+impl Primitive {
+    /// A box around it in world space; infinite for a plane.
+    pub fn bounds(&self) -> Bounds {
+        let map = DAffine3 { matrix3: self.world_from_shape, translation: self.origin };
+        match &self.kind {
+            Kind::Plane(plane) => plane.bounds(),
+            kind => each_kind!(kind, shape => shape.bounds()).transformed(&map),
+        }
+    }
+
+    /// For an infinite plane, its normal (scaled as the map scales it) and a point on it.
+    pub(crate) fn as_plane(&self) -> Option<[DVec3; 2]> {
+        match self.kind {
+            Kind::Plane(_) => Some([self.shape_from_world.row(1), self.origin]),
+            _ => None,
+        }
+    }
+
+    /// The nearest crossing with 0 < t < `t_max`.
+    pub fn intersect(&self, ray: &Ray, t_max: f64) -> Option<Crossing> {
+        let ray =
+            Ray { origin: self.to_shape(ray.origin), direction: self.shape_from_world * ray.direction };
+        each_kind!(&self.kind, shape => shape.intersect(&ray, t_max))
+    }
+
+    /// The surface at a crossing of `ray`.
+    pub fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
+        let near = self.to_shape(ray.at(crossing.t));
+        let (snapped, normal) = each_kind!(&self.kind, shape => shape.surface(near, crossing.part));
+        let rounding = each_kind!(&self.kind, shape => shape.rounding());
+        let point = self.origin + self.world_from_shape * snapped;
+        // Normals map by the inverse transpose; `normal` need not have unit length.
+        let outward = self.shape_from_world.transpose() * normal;
+        let stretch = outward.length();
+        // How far the point may seem to be from the surface when a new ray's origin is mapped back to the canonical
+        // space: the shape's own rounding, and that of the two maps (a few operations of half an ulp each).
+        let [world_norm, shape_norm] = self.norms;
+        let reach = world_norm * largest(snapped) + largest(point) + largest(self.origin);
+        let doubt = rounding + 16.0 * f64::EPSILON * shape_norm * reach;
+        // Stepping along the world's unit normal by s moves by s · stretch / |normal| along the canonical one.
+        Surface { point, normal: outward * (1.0 / stretch), offset: 4.0 * doubt * normal.length() / stretch }
+    }
+
+    /// Texture coordinates at a point of the surface.
+    pub fn uv(&self, point: DVec3, part: u32) -> DVec2 {
+        let point = self.to_shape(point);
+        each_kind!(&self.kind, shape => shape.uv(point, part))
+    }
+
+    /// True for a point inside; always false for what has no inside.
+    pub fn contains(&self, point: DVec3) -> bool {
+        let point = self.to_shape(point);
+        each_kind!(&self.kind, shape => shape.contains(point))
+    }
+
+    /// Subtracting first keeps small things far from the origin sharp.
+    fn to_shape(&self, point: DVec3) -> DVec3 {
+        self.shape_from_world * (point - self.origin)
+    }
+}
+
+/// The frame whose y axis is `axis` (with its length) and whose other axes have length `radius`.
+fn axial_frame(axis: DVec3, radius: f64, origin: DVec3) -> DAffine3 {
+    let length = axis.length();
+    let turn = rotation_between(DVec3::Y, axis / length);
+    DAffine3::from_mat3_translation(turn * DMat3::from_diagonal(DVec3::new(radius, length, radius)), origin)
+}
+
+fn row_norm(m: &DMat3) -> f64 {
+    largest(m.x_axis.abs() + m.y_axis.abs() + m.z_axis.abs())
+}
+
+fn largest(v: DVec3) -> f64 {
+    v.abs().max_element()
+}

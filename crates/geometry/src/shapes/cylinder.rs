@@ -1,0 +1,104 @@
+//! The cylinder about the y axis with radius 1, from y = -1 to y = 1; a tube if open.
+
+use super::Shape;
+use super::span::{INSET, Span, into_cap};
+use super::sphere::longitude;
+use crate::{Bounds, Crossing, Ray};
+use durer_math::{DVec2, DVec3};
+
+/// x² + z² ≤ 1 and -1 ≤ y ≤ 1. Part 0 is the side, 1 the cap at the bottom, 2 the cap on top.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cylinder {
+    /// Without caps: only the side is there, and rays meet it from both sides.
+    pub(crate) open: bool,
+}
+
+const HEIGHTS: (f64, f64) = (-1.0, 1.0);
+
+/// The ray's span in the endless cylinder; `None` if it misses or leaves it behind. The quadratic as for the sphere,
+/// but in the plane of x and z.
+#[inline]
+fn endless(ray: &Ray) -> Option<Span> {
+    let (ox, oz, dx, dz) = (ray.origin.x, ray.origin.z, ray.direction.x, ray.direction.z);
+    let b = ox * dx + oz * dz;
+    let c = ox * ox + oz * oz - 1.0;
+    let outside = c > 0.0;
+    if outside && b >= 0.0 {
+        return None;
+    }
+    let a = dx * dx + dz * dz;
+    let span = |enter, exit| Some(Span { enter, exit, enter_part: 0, exit_part: 0 });
+    if a == 0.0 {
+        // Along the axis. A ray in the surface itself counts as outside.
+        return if c < 0.0 { span(f64::NEG_INFINITY, f64::INFINITY) } else { None };
+    }
+    let back = b / a;
+    let (nx, nz) = (ox - dx * back, oz - dz * back);
+    let discriminant = a * (1.0 - (nx * nx + nz * nz));
+    if outside {
+        if discriminant < 0.0 {
+            return None;
+        }
+        let q = discriminant.sqrt() - b;
+        span(c / q, q / a)
+    } else {
+        let root = discriminant.max(0.0).sqrt();
+        span(f64::NEG_INFINITY, if b > 0.0 { -c / (root + b) } else { (root - b) / a })
+    }
+}
+
+/// The first crossing with an endless surface, of those ahead that have their y between `low` and `high`.
+#[inline]
+pub(super) fn first_of_side(ray: &Ray, side: Span, (low, high): (f64, f64)) -> Option<Crossing> {
+    let reached = |t: f64| {
+        let y = ray.origin.y + t * ray.direction.y;
+        t > 0.0 && y >= low && y <= high
+    };
+    [side.enter, side.exit].into_iter().find(|&t| reached(t)).map(|t| Crossing { t, part: 0 })
+}
+
+impl Shape for Cylinder {
+    fn bounds(&self) -> Bounds {
+        Bounds { min: DVec3::NEG_ONE, max: DVec3::ONE }
+    }
+
+    #[inline]
+    fn intersect(&self, ray: &Ray, t_max: f64) -> Option<Crossing> {
+        let hit = if self.open {
+            first_of_side(ray, endless(ray)?, HEIGHTS)?
+        } else {
+            let slab = Span::slab(ray.origin.y, ray.direction.y, HEIGHTS, (1, 2))?;
+            endless(ray)?.and(slab).first()?
+        };
+        (hit.t < t_max).then_some(hit)
+    }
+
+    fn surface(&self, point: DVec3, part: u32) -> (DVec3, DVec3) {
+        match part {
+            0 => {
+                let scale = 1.0 / (point.x * point.x + point.z * point.z).sqrt();
+                let normal = DVec3::new(point.x * scale, 0.0, point.z * scale);
+                (DVec3::new(normal.x, point.y.clamp(-INSET, INSET), normal.z), normal)
+            }
+            1 => (into_cap(point, -1.0, 1.0), DVec3::NEG_Y),
+            _ => (into_cap(point, 1.0, 1.0), DVec3::Y),
+        }
+    }
+
+    /// On the side longitude, and height from 0 to 1; on the caps the square around the disc, in x and z.
+    fn uv(&self, point: DVec3, part: u32) -> DVec2 {
+        match part {
+            0 => DVec2::new(longitude(point), (point.y + 1.0) * 0.5),
+            _ => DVec2::new((point.x + 1.0) * 0.5, (point.z + 1.0) * 0.5),
+        }
+    }
+
+    fn contains(&self, p: DVec3) -> bool {
+        !self.open && p.x * p.x + p.z * p.z < 1.0 && p.y.abs() < 1.0
+    }
+
+    /// As for the sphere, whose reasoning holds for x and z alone.
+    fn rounding(&self) -> f64 {
+        11.0 * f64::EPSILON
+    }
+}

@@ -1,0 +1,46 @@
+//! The plane y = 0. Its outside is above; rays hit it from both sides.
+
+use super::Shape;
+use crate::{Bounds, Crossing, Ray};
+use durer_math::{DVec2, DVec3};
+
+/// The plane y = 0 with normal +y.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plane;
+
+/// The parameter at which a ray meets the plane y = 0, if 0 < t < `t_max`. Its sign is exact: that of a quotient.
+#[inline]
+pub(super) fn meet(ray: &Ray, t_max: f64) -> Option<f64> {
+    let t = -ray.origin.y / ray.direction.y;
+    (t > 0.0 && t < t_max).then_some(t)
+}
+
+impl Shape for Plane {
+    fn bounds(&self) -> Bounds {
+        Bounds { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY }
+    }
+
+    #[inline]
+    fn intersect(&self, ray: &Ray, t_max: f64) -> Option<Crossing> {
+        meet(ray, t_max).map(|t| Crossing { t, part: 0 })
+    }
+
+    fn surface(&self, point: DVec3, _part: u32) -> (DVec3, DVec3) {
+        (DVec3::new(point.x, 0.0, point.z), DVec3::Y)
+    }
+
+    /// The point's own x and z.
+    fn uv(&self, point: DVec3, _part: u32) -> DVec2 {
+        DVec2::new(point.x, point.z)
+    }
+
+    /// The half-space below.
+    fn contains(&self, point: DVec3) -> bool {
+        point.y < 0.0
+    }
+
+    /// Zero: a point on it has y = 0 exactly, and that is what `intersect` looks at.
+    fn rounding(&self) -> f64 {
+        0.0
+    }
+}

@@ -1,0 +1,7 @@
+//! One ray against many boxes or planes at once, with whatever instruction set the machine has.
+//!
+//! Every function here is written once, over `fearless_simd`'s vectors; the instruction set is chosen once per query.
+//! Fused multiply-add is never used, so all sets give the same bits.
+
+pub(crate) mod boxes;
+pub(crate) mod planes;

@@ -1,0 +1,156 @@
+//! OpenEXR, by the `exr` crate, on one thread: one layer of R, G and B, or of luminance alone.
+
+use ::exr::error::Error;
+use ::exr::meta::header::Header;
+use ::exr::meta::{BlockDescription, MetaData};
+use ::exr::prelude::*;
+use half::f16;
+use std::io::Cursor;
+use std::result::Result;
+
+use crate::{Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, ExrSamples, FileFormat, Texels};
+
+/// Pixels as they come in, in any order.
+struct Canvas {
+    width: usize,
+    texels: Vec<[f32; 3]>,
+    is_opaque: bool,
+}
+
+impl Canvas {
+    fn new(size: Vec2<usize>) -> Canvas {
+        Canvas { width: size.width(), texels: vec![[0.0; 3]; size.area()], is_opaque: true }
+    }
+
+    fn set(&mut self, at: Vec2<usize>, texel: [f32; 3], alpha: f32) {
+        self.texels[at.y() * self.width + at.x()] = texel;
+        self.is_opaque &= alpha == 1.0;
+    }
+}
+
+/// Reads the first layer that has the channels R, G and B, or else the first with Y, over its data window.
+pub(crate) fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, DecodeError> {
+    let headers = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(decode_error)?.headers;
+    headers.iter().try_for_each(|header| check_size(header, limits))?;
+    let (canvas, size) = if headers.iter().any(|header| has_channels(header, &["R", "G", "B"])) {
+        read_rgb(bytes)?
+    } else if headers.iter().any(|header| has_channels(header, &["Y"])) {
+        read_luminance(bytes)?
+    } else {
+        return Err(unsupported("no flat channels R, G and B".into()));
+    };
+    let (width, height) = (size.width() as u32, size.height() as u32);
+    Ok(Bitmap { width, height, texels: Texels::F32(canvas.texels), alpha_dropped: !canvas.is_opaque })
+}
+
+/// Refuses a layer that is too large, has no pixels, or is cut into blocks too large to hold in memory.
+fn check_size(header: &Header, limits: &DecodeLimits) -> Result<(), DecodeError> {
+    let side = |size: usize| u32::try_from(size).unwrap_or(u32::MAX);
+    let (width, height) = (side(header.layer_size.width()), side(header.layer_size.height()));
+    limits.check(width, height, 12)?;
+    let block = match header.blocks {
+        BlockDescription::ScanLines => Vec2(header.layer_size.width(), header.compression.scan_lines_per_block()),
+        BlockDescription::Tiles(tiles) => tiles.tile_size,
+    };
+    let block_pixels = (block.width() as u64).saturating_mul(block.height() as u64);
+    if block_pixels.saturating_mul(header.channels.bytes_per_pixel as u64) > limits.max_bytes {
+        return Err(corrupt("its blocks are too large".into()));
+    }
+    Ok(())
+}
+
+/// True if the layer is flat (one color a pixel, not a stack of samples) and has these channels.
+fn has_channels(header: &Header, names: &[&str]) -> bool {
+    let has = |name: &&str| header.channels.list.iter().any(|channel| channel.name == **name);
+    !header.deep && names.iter().all(has)
+}
+
+fn read_rgb(bytes: &[u8]) -> Result<(Canvas, Vec2<usize>), DecodeError> {
+    let layers = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .rgba_channels(
+            |size, _| Canvas::new(size),
+            |canvas: &mut Canvas, at, (r, g, b, alpha): (f32, f32, f32, f32)| canvas.set(at, [r, g, b], alpha),
+        )
+        .first_valid_layer()
+        .all_attributes()
+        .non_parallel();
+    let layer = layers.from_buffered(Cursor::new(bytes)).map_err(decode_error)?.layer_data;
+    Ok((layer.channel_data.pixels, layer.size))
+}
+
+fn read_luminance(bytes: &[u8]) -> Result<(Canvas, Vec2<usize>), DecodeError> {
+    let layers = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .specific_channels()
+        .required("Y")
+        .optional("A", 1.0)
+        .collect_pixels(
+            |size, _| Canvas::new(size),
+            |canvas: &mut Canvas, at, (y, alpha): (f32, f32)| canvas.set(at, [y; 3], alpha),
+        )
+        .first_valid_layer()
+        .all_attributes()
+        .non_parallel();
+    let layer = layers.from_buffered(Cursor::new(bytes)).map_err(decode_error)?.layer_data;
+    Ok((layer.channel_data.pixels, layer.size))
+}
+
+fn corrupt(detail: String) -> DecodeError {
+    DecodeError::Corrupt { format: FileFormat::Exr, detail }
+}
+
+fn unsupported(detail: String) -> DecodeError {
+    DecodeError::Unsupported { format: FileFormat::Exr, detail }
+}
+
+fn decode_error(error: Error) -> DecodeError {
+    match error {
+        // What the crate makes of an unexpected end of the file.
+        Error::Invalid(detail) if detail == "reference to missing bytes" => DecodeError::Truncated,
+        Error::Invalid(detail) => corrupt(detail.into_owned()),
+        Error::NotSupported(detail) => unsupported(detail.into_owned()),
+        Error::Io(error) => corrupt(error.to_string()),
+        Error::Aborted => corrupt("reading stopped".into()),
+    }
+}
+
+/// Scan lines from the top, in ZIP blocks of 16.
+pub(crate) fn encode(image: &crate::Image, options: &EncodeOptions) -> Result<Vec<u8>, EncodeError> {
+    let channel = |name: &str, component: usize| {
+        let numbers = image.pixels.iter().map(|pixel| pixel.to_array()[component]);
+        let samples = match options.exr_samples {
+            ExrSamples::Float => FlatSamples::F32(numbers.collect()),
+            ExrSamples::Half => FlatSamples::F16(numbers.map(half).collect()),
+        };
+        AnyChannel::new(name, samples)
+    };
+    let channels = AnyChannels::sort([channel("R", 0), channel("G", 1), channel("B", 2)].into_iter().collect());
+    let encoding =
+        Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
+    let attributes = LayerAttributes { comments: comments(options), ..LayerAttributes::default() };
+    let layer = Layer::new((image.width as usize, image.height as usize), attributes, encoding, channels);
+    let mut bytes = Cursor::new(Vec::new());
+    let written = Image::from_layer(layer).write().non_parallel().to_buffered(&mut bytes);
+    written.map_err(|error| EncodeError::Failed { format: FileFormat::Exr, detail: error.to_string() })?;
+    Ok(bytes.into_inner())
+}
+
+/// The metadata in one attribute, a line each, in UTF-8: the crate keeps attributes of other names in a hash map, whose
+/// order would make the bytes of the file change from run to run.
+fn comments(options: &EncodeOptions) -> Option<Text> {
+    if options.metadata.is_empty() {
+        return None;
+    }
+    let lines: String = options.metadata.iter().map(|(keyword, text)| format!("{keyword}: {text}\n")).collect();
+    // The crate stores a character of Latin-1 as one byte, so the bytes of UTF-8 go in as such characters.
+    Text::new_or_none(lines.bytes().map(char::from).collect::<String>())
+}
+
+/// The nearest half; finite numbers stay finite.
+fn half(v: f32) -> f16 {
+    let largest = f16::MAX.to_f32();
+    f16::from_f32(if v.is_finite() { v.clamp(-largest, largest) } else { v })
+}

@@ -1,0 +1,123 @@
+//! PNG, by the `png` crate.
+
+use ::png::{BitDepth, ColorType, Compression, DecodingError, EncodingError, SrgbRenderingIntent, Transformations};
+use std::io::{Cursor, ErrorKind};
+
+use crate::quantize::{bytes_from_linear, word_from_linear};
+use crate::{
+    Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, FileFormat, Image, PngDepth, Texels, Transfer,
+};
+
+pub(crate) fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, DecodeError> {
+    let mut decoder = ::png::Decoder::new(Cursor::new(bytes));
+    // Palettes become colours, 1 to 4 bits become 8, a transparent colour becomes an alpha channel.
+    decoder.set_transformations(Transformations::EXPAND);
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_ignore_iccp_chunk(true);
+    let header = decoder.read_header_info().map_err(decode_error)?;
+    let (width, height) = (header.width, header.height);
+    let bytes_per_pixel = if header.bit_depth == BitDepth::Sixteen { 6 } else { 3 };
+    limits.check(width, height, bytes_per_pixel)?;
+    decoder.set_limits(::png::Limits { bytes: usize::try_from(limits.max_bytes).unwrap_or(usize::MAX) });
+    let mut reader = decoder.read_info().map_err(decode_error)?;
+    let size = reader.output_buffer_size().ok_or_else(|| corrupt("the size is too large".into()))?;
+    let mut samples = vec![0; size];
+    reader.next_frame(&mut samples).map_err(decode_error)?;
+    // Damage after the picture shows as well: the file must end as it should.
+    reader.finish().map_err(decode_error)?;
+    let (color, depth) = reader.output_color_type();
+    let (texels, alpha_dropped) = if depth == BitDepth::Sixteen {
+        let words: Vec<u16> = samples.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]])).collect();
+        let (texels, alpha_dropped) = colors(&words, color, u16::MAX);
+        (Texels::U16(texels), alpha_dropped)
+    } else {
+        let (texels, alpha_dropped) = colors(&samples, color, u8::MAX);
+        (Texels::U8(texels), alpha_dropped)
+    };
+    Ok(Bitmap { width, height, texels, alpha_dropped })
+}
+
+/// Colours from samples, and whether any alpha is less than `opaque`.
+fn colors<T: Copy + PartialEq>(samples: &[T], color: ColorType, opaque: T) -> (Vec<[T; 3]>, bool) {
+    match color {
+        // The EXPAND transformation leaves no palette.
+        ColorType::Grayscale | ColorType::Indexed => (samples.iter().map(|&v| [v; 3]).collect(), false),
+        ColorType::Rgb => (samples.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect(), false),
+        ColorType::GrayscaleAlpha => (
+            samples.chunks_exact(2).map(|p| [p[0]; 3]).collect(),
+            samples.chunks_exact(2).any(|pixel| pixel[1] != opaque),
+        ),
+        ColorType::Rgba => (
+            samples.chunks_exact(4).map(|p| [p[0], p[1], p[2]]).collect(),
+            samples.chunks_exact(4).any(|pixel| pixel[3] != opaque),
+        ),
+    }
+}
+
+fn corrupt(detail: String) -> DecodeError {
+    DecodeError::Corrupt { format: FileFormat::Png, detail }
+}
+
+fn decode_error(error: DecodingError) -> DecodeError {
+    match error {
+        DecodingError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => DecodeError::Truncated,
+        DecodingError::LimitsExceeded => corrupt("it needs too much memory".into()),
+        DecodingError::IoError(error) => corrupt(error.to_string()),
+        DecodingError::Format(error) => corrupt(error.to_string()),
+        DecodingError::Parameter(error) => corrupt(error.to_string()),
+    }
+}
+
+pub(crate) fn encode(image: &Image, options: &EncodeOptions) -> Result<Vec<u8>, EncodeError> {
+    let mut bytes = Vec::new();
+    let mut encoder = ::png::Encoder::new(&mut bytes, image.width, image.height);
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(match options.png_depth {
+        PngDepth::Eight => BitDepth::Eight,
+        PngDepth::Sixteen => BitDepth::Sixteen,
+    });
+    encoder.set_compression(Compression::Fast);
+    if options.transfer == Transfer::Srgb {
+        encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    }
+    for (keyword, text) in &options.metadata {
+        add_text(&mut encoder, keyword, text)?;
+    }
+    let mut writer = encoder.write_header().map_err(encode_error)?;
+    writer.write_image_data(&samples(image, options)).map_err(encode_error)?;
+    writer.finish().map_err(encode_error)?;
+    Ok(bytes)
+}
+
+/// Adds a text: as tEXt if it is ASCII, as iTXt, which is UTF-8, if not. A keyword must be printable ASCII here, which
+/// both kinds can hold.
+fn add_text(encoder: &mut ::png::Encoder<'_, &mut Vec<u8>>, keyword: &str, text: &str) -> Result<(), EncodeError> {
+    let is_allowed = (1..=79).contains(&keyword.len())
+        && keyword.bytes().all(|byte| byte == b' ' || byte.is_ascii_graphic())
+        && keyword.trim_ascii() == keyword;
+    if !is_allowed {
+        return Err(EncodeError::Keyword { keyword: keyword.to_owned() });
+    }
+    // A zero byte would end the text.
+    let text = text.replace('\0', "");
+    let keyword = keyword.to_owned();
+    let added =
+        if text.is_ascii() { encoder.add_text_chunk(keyword, text) } else { encoder.add_itxt_chunk(keyword, text) };
+    added.map_err(encode_error)
+}
+
+/// The rows' bytes, 16-bit numbers with the high byte first.
+fn samples(image: &Image, options: &EncodeOptions) -> Vec<u8> {
+    let pixels = &image.pixels;
+    match options.png_depth {
+        PngDepth::Eight => bytes_from_linear(pixels, options.transfer),
+        PngDepth::Sixteen => {
+            let components = pixels.iter().flat_map(|pixel| pixel.to_array());
+            components.flat_map(|v| word_from_linear(v, options.transfer).to_be_bytes()).collect()
+        }
+    }
+}
+
+fn encode_error(error: EncodingError) -> EncodeError {
+    EncodeError::Failed { format: FileFormat::Png, detail: error.to_string() }
+}

@@ -1,0 +1,144 @@
+//! The camera, compiled: a point of the picture becomes a ray.
+
+use durer_geometry::{Bounds, Ray};
+use durer_math::{DVec2, DVec3, functions::tan};
+use durer_scene as scene;
+
+/// Makes the eye's rays.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Camera {
+    /// The eye, or for parallel projection the middle of the plane that rays start from.
+    position: DVec3,
+    forward: DVec3,
+    /// From the middle of the picture to its right and upper edges: on a plane at distance 1, or, for parallel
+    /// projection, in the world.
+    right: DVec3,
+    up: DVec3,
+    parallel: bool,
+    size: DVec2,
+}
+
+impl Camera {
+    /// A camera for a picture of this size. Without a description it frames `bounds`.
+    pub(crate) fn compile(described: Option<&scene::Camera>, bounds: Bounds, width: u32, height: u32) -> Camera {
+        let aspect = f64::from(width) / f64::from(height);
+        let framed;
+        let camera = match described {
+            Some(camera) => camera,
+            None => {
+                framed = frame(bounds, aspect);
+                &framed
+            }
+        };
+        let forward = (camera.look_at - camera.position).normalize();
+        let right = forward.cross(camera.up).normalize();
+        let up = right.cross(forward);
+        let (half_height, parallel) = match camera.projection {
+            scene::Projection::FieldOfView { degrees } => (tan((degrees * 0.5).to_radians()), false),
+            scene::Projection::ImagePlane { distance, half_height } => (half_height / distance, false),
+            scene::Projection::Orthographic { height } => (height * 0.5, true),
+        };
+        Camera {
+            position: camera.position,
+            forward,
+            right: right * (half_height * aspect),
+            up: up * half_height,
+            parallel,
+            size: DVec2::new(f64::from(width), f64::from(height)),
+        }
+    }
+
+    /// The ray through a point of the picture, in pixels from its upper left corner.
+    pub(crate) fn ray(&self, at: DVec2) -> Ray {
+        let (x, y) = (2.0 * at.x / self.size.x - 1.0, 1.0 - 2.0 * at.y / self.size.y);
+        let across = self.right * x + self.up * y;
+        if self.parallel {
+            Ray { origin: self.position + across, direction: self.forward }
+        } else {
+            Ray { origin: self.position, direction: (self.forward + across).normalize() }
+        }
+    }
+}
+
+/// A view from the front, a little from the right and from above, that shows all of `bounds` and little else.
+fn frame(bounds: Bounds, aspect: f64) -> scene::Camera {
+    let degrees: f64 = 35.0;
+    let half_tangent = tan((degrees * 0.5).to_radians()) * aspect.min(1.0);
+    let (center, radius) = match bounds.is_empty() {
+        true => (DVec3::ZERO, 2.0),
+        false => (bounds.center(), bounds.size().length() * 0.5),
+    };
+    // The sphere around the bounds touches the edges of the view where its sine, not its tangent, is radius / distance.
+    let distance = radius * (1.0 + 1.0 / (half_tangent * half_tangent)).sqrt();
+    scene::Camera {
+        position: center + DVec3::new(0.45, 0.4, 1.0).normalize() * distance,
+        look_at: center,
+        up: DVec3::Y,
+        projection: scene::Projection::FieldOfView { degrees },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn assert_near(a: DVec3, b: DVec3) {
+        assert!((a - b).length() < 1e-12, "{a} != {b}");
+    }
+
+    #[test]
+    fn the_seeds_image_plane_has_half_height_over_distance() {
+        let described = scene::Camera {
+            projection: scene::Projection::ImagePlane { distance: 12.5, half_height: 10.0 },
+            ..scene::Camera::default()
+        };
+        let camera = Camera::compile(Some(&described), Bounds::EMPTY, 1920, 1080);
+        assert_near(camera.ray(DVec2::new(960.0, 540.0)).direction, DVec3::NEG_Z);
+        let corner = DVec3::new(-0.8 * 1920.0 / 1080.0, 0.8, -1.0).normalize();
+        assert_near(camera.ray(DVec2::ZERO).direction, corner);
+    }
+
+    #[test]
+    fn the_field_of_view_is_the_whole_vertical_angle() {
+        let described = scene::Camera {
+            position: DVec3::new(1.0, 2.0, 3.0),
+            look_at: DVec3::new(11.0, 2.0, 3.0),
+            projection: scene::Projection::FieldOfView { degrees: 90.0 },
+            ..scene::Camera::default()
+        };
+        let camera = Camera::compile(Some(&described), Bounds::EMPTY, 200, 100);
+        assert_near(camera.ray(DVec2::new(100.0, 0.0)).direction, DVec3::new(1.0, 1.0, 0.0).normalize());
+        assert_near(camera.ray(DVec2::new(200.0, 50.0)).direction, DVec3::new(1.0, 0.0, 2.0).normalize());
+    }
+
+    #[test]
+    fn parallel_rays_start_on_a_plane() {
+        let described =
+            scene::Camera { projection: scene::Projection::Orthographic { height: 4.0 }, ..scene::Camera::default() };
+        let camera = Camera::compile(Some(&described), Bounds::EMPTY, 300, 100);
+        let ray = camera.ray(DVec2::new(300.0, 100.0));
+        assert_near(ray.origin, DVec3::new(6.0, -2.0, 0.0));
+        assert_near(ray.direction, DVec3::NEG_Z);
+    }
+
+    #[test]
+    fn an_undescribed_camera_sees_every_corner_of_the_bounds() {
+        let bounds = Bounds { min: DVec3::new(-3.0, 10.0, 5.0), max: DVec3::new(4.0, 12.0, 6.0) };
+        for (width, height) in [(640, 480), (100, 900), (900, 100)] {
+            let camera = Camera::compile(None, bounds, width, height);
+            for corner in 0..8 {
+                let pick = |bit: usize, low: f64, high: f64| if corner >> bit & 1 == 0 { low } else { high };
+                let p = DVec3::new(
+                    pick(0, bounds.min.x, bounds.max.x),
+                    pick(1, bounds.min.y, bounds.max.y),
+                    pick(2, bounds.min.z, bounds.max.z),
+                );
+                let to = p - camera.position;
+                let depth = to.dot(camera.forward);
+                assert!(depth > 0.0);
+                assert!((to.dot(camera.right) / depth).abs() <= camera.right.length_squared());
+                assert!((to.dot(camera.up) / depth).abs() <= camera.up.length_squared());
+            }
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! Replays one pixel and writes down every ray of it.
+
+use crate::antialias::{Antialias, Sample, grid::Grid, recursive::Recursive};
+use crate::compile::CompiledScene;
+use crate::integrators::whitted::Whitted;
+use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Source, SurfaceSeen};
+use crate::pixel::{SampleObserver, render_pixel};
+use durer_geometry::Ray;
+use durer_math::{DVec2, DVec3, Rgb};
+
+/// How a pixel got its colour: the sum of the colours of its kept samples, each times its weight, in this order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PixelExplanation {
+    /// Column, from the left.
+    pub x: u32,
+    /// Row, from the top.
+    pub y: u32,
+    /// The pixel's colour, exactly as rendered.
+    pub color: Rgb,
+    /// All samples, in the order they were taken.
+    pub samples: Vec<SampleExplanation>,
+}
+
+/// One ray of the eye and all that came of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SampleExplanation {
+    /// Where it is, in pixels from the picture's upper left corner.
+    pub at: DVec2,
+    /// Its weight in the pixel; `None` if anti-aliasing threw it away.
+    pub weight: Option<f32>,
+    /// The sum of all contributions, in the order of the tree: a ray's own, then those of its children.
+    pub color: Rgb,
+    /// The ray.
+    pub ray: RayExplanation,
+}
+
+/// One ray: what it met and what it brought.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RayExplanation {
+    /// Why it was traced.
+    pub kind: RayKind,
+    /// 1 for the eye's ray.
+    pub depth: u32,
+    /// Where it starts, in world space.
+    pub origin: DVec3,
+    /// Where it goes; unit length.
+    pub direction: DVec3,
+    /// What light at its start counts in the sample.
+    pub weight: Rgb,
+    /// What it met; `None` for the background.
+    pub hit: Option<HitExplanation>,
+    /// The lights, as seen from there.
+    pub lights: Vec<LightExplanation>,
+    /// What it added to the sample, in order, weights included.
+    pub contributions: Vec<Contribution>,
+    /// Rays that the surface asked for but that were not traced.
+    pub not_traced: Vec<(RayKind, Rgb, NotTraced)>,
+    /// Rays that started where this one ended.
+    pub children: Vec<RayExplanation>,
+}
+
+/// Where a ray met a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HitExplanation {
+    /// Index of the shape, counting the shapes of the scene file from 0, depth first.
+    pub shape: usize,
+    /// Distance along the ray.
+    pub distance: f64,
+    /// The point, in world space.
+    pub point: DVec3,
+    /// The surface's outward unit normal.
+    pub normal: DVec3,
+    /// True if the ray came from the side that the normal points to.
+    pub from_outside: bool,
+    /// The colour of the texture there.
+    pub color: Rgb,
+}
+
+/// A light as seen from a hit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightExplanation {
+    /// Index in the scene's list of lights.
+    pub light: usize,
+    /// How far away it is; `None` where it does not shine (outside of a spot's cone).
+    pub distance: Option<f64>,
+    /// Cosine between the normal and the direction to the light; not positive if the light is behind the surface.
+    pub cosine: f64,
+    /// What gets through to the point.
+    pub visibility: Rgb,
+}
+
+/// An amount of light added to a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contribution {
+    /// Where it comes from.
+    pub source: Source,
+    /// How much, all weights included.
+    pub amount: Rgb,
+}
+
+/// Explains the pixel at column `x`, row `y`; `None` if it is outside of the picture.
+pub fn explain(scene: &CompiledScene, x: u32, y: u32) -> Option<PixelExplanation> {
+    let (width, height) = scene.picture_size();
+    if x >= width || y >= height {
+        return None;
+    }
+    Some(match scene.settings.antialias {
+        durer_scene::Antialias::None => explain_with(scene, &Grid { n: 1 }, x, y),
+        durer_scene::Antialias::Grid { n } => explain_with(scene, &Grid { n }, x, y),
+        durer_scene::Antialias::Recursive { threshold, max_depth } => {
+            explain_with(scene, &Recursive { threshold, max_depth }, x, y)
+        }
+    })
+}
+
+fn explain_with<A: Antialias>(scene: &CompiledScene, antialias: &A, x: u32, y: u32) -> PixelExplanation {
+    let mut recorder = Recorder::default();
+    let pixel = render_pixel(scene, (&Whitted, antialias), (x, y), &mut recorder);
+    PixelExplanation { x, y, color: pixel.color, samples: recorder.samples }
+}
+
+/// Writes down what it is told.
+#[derive(Default)]
+struct Recorder {
+    samples: Vec<SampleExplanation>,
+    at: DVec2,
+    /// The ray being traced, and those that led to it.
+    open: Vec<RayExplanation>,
+}
+
+impl SampleObserver for Recorder {
+    fn sample_begins(&mut self, at: DVec2) {
+        self.at = at;
+    }
+
+    fn sample_kept(&mut self, weight: f32, sample: Sample) {
+        if let Some(explained) = self.samples.get_mut(sample.index as usize) {
+            explained.weight = Some(weight);
+            explained.color = sample.color;
+        }
+    }
+}
+
+impl Observer for Recorder {
+    fn ray_begins(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb) {
+        let Ray { origin, direction } = *ray;
+        self.open.push(RayExplanation {
+            kind,
+            depth,
+            origin,
+            direction,
+            weight,
+            hit: None,
+            lights: Vec::new(),
+            contributions: Vec::new(),
+            not_traced: Vec::new(),
+            children: Vec::new(),
+        });
+    }
+
+    fn surface(&mut self, seen: &SurfaceSeen) {
+        self.with_ray(|ray| {
+            ray.hit = Some(HitExplanation {
+                shape: seen.hit.primitive as usize,
+                distance: seen.hit.crossing.t,
+                point: seen.surface.point,
+                normal: seen.surface.normal,
+                from_outside: seen.from_outside,
+                color: seen.color,
+            });
+        });
+    }
+
+    fn light(&mut self, seen: &LightSeen) {
+        let LightSeen { index, distance, cosine, visibility } = *seen;
+        self.with_ray(|ray| ray.lights.push(LightExplanation { light: index, distance, cosine, visibility }));
+    }
+
+    fn contribution(&mut self, source: Source, amount: Rgb) {
+        self.with_ray(|ray| ray.contributions.push(Contribution { source, amount }));
+    }
+
+    fn not_traced(&mut self, kind: RayKind, weight: Rgb, why: NotTraced) {
+        self.with_ray(|ray| ray.not_traced.push((kind, weight, why)));
+    }
+
+    fn ray_ends(&mut self) {
+        let Some(ray) = self.open.pop() else { return };
+        match self.open.last_mut() {
+            Some(parent) => parent.children.push(ray),
+            None => {
+                let color = ray.sum(Rgb::BLACK);
+                self.samples.push(SampleExplanation { at: self.at, weight: None, color, ray });
+            }
+        }
+    }
+}
+
+impl Recorder {
+    fn with_ray(&mut self, write: impl FnOnce(&mut RayExplanation)) {
+        if let Some(ray) = self.open.last_mut() {
+            write(ray);
+        }
+    }
+}
+
+impl RayExplanation {
+    /// Adds this ray's contributions and those of its children to a sum, in the order in which rendering does.
+    pub fn sum(&self, start: Rgb) -> Rgb {
+        let own = self.contributions.iter().fold(start, |sum, c| sum + c.amount);
+        self.children.iter().fold(own, |sum, child| child.sum(sum))
+    }
+}
+
+impl PixelExplanation {
+    /// The pixel's colour, added up again from the contributions.
+    pub fn sum(&self) -> Rgb {
+        let mut sum = Rgb::BLACK;
+        for sample in &self.samples {
+            if let Some(weight) = sample.weight {
+                sum += sample.ray.sum(Rgb::BLACK) * weight;
+            }
+        }
+        sum
+    }
+}

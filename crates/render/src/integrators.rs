@@ -1,0 +1,13 @@
+//! Integrators: what light arrives along a ray. One file each.
+
+pub(crate) mod whitted;
+
+use crate::compile::CompiledScene;
+use crate::observer::Observer;
+use durer_geometry::Ray;
+use durer_math::Rgb;
+
+/// Estimates the light arriving along one ray. Owns no loop over pixels, no thread and no film.
+pub(crate) trait Integrator: Sync {
+    fn radiance<O: Observer>(&self, scene: &CompiledScene, ray: &Ray, observer: &mut O) -> Rgb;
+}

@@ -1,0 +1,176 @@
+//! Classic ray tracing: ambient and direct light, and rays in the mirrored and the refracted direction only.
+//!
+//! Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980. The colour of a pixel is kept as one
+//! sum: every term is added with the product of all weights on its way from the eye, so the terms can be listed and
+//! their sum, in the order of the list, is the pixel to the last bit.
+
+use super::Integrator;
+use crate::background::background;
+use crate::compile::CompiledScene;
+use crate::fog::veil;
+use crate::materials::{Material, reflect, refract};
+use crate::media::Media;
+use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Source, SurfaceSeen};
+use crate::shading::{Shading, highlight};
+use crate::visibility::visibility;
+use durer_geometry::Ray;
+use durer_math::Rgb;
+
+/// The classic integrator.
+pub(crate) struct Whitted;
+
+impl Integrator for Whitted {
+    fn radiance<O: Observer>(&self, scene: &CompiledScene, ray: &Ray, observer: &mut O) -> Rgb {
+        let media = if scene.media.is_empty() { Media::default() } else { Media::around(scene, ray) };
+        let mut path = Path { scene, media, sum: Rgb::BLACK, observer };
+        path.trace(RayKind::Eye, 1, ray, Rgb::WHITE);
+        path.sum
+    }
+}
+
+/// All rays from one ray of the eye.
+struct Path<'a, O> {
+    scene: &'a CompiledScene,
+    /// Around the origin of the ray being traced.
+    media: Media,
+    sum: Rgb,
+    observer: &'a mut O,
+}
+
+impl<O: Observer> Path<'_, O> {
+    /// Adds what arrives along a ray, times its weight.
+    fn trace(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb) {
+        self.observer.ray_begins(kind, depth, ray, weight);
+        let hit = self.scene.world.closest_hit(ray, f64::INFINITY, u32::MAX);
+        let length = hit.map_or(f64::INFINITY, |hit| hit.crossing.t);
+        let weight = self.along(length, weight);
+        match hit {
+            None => self.add(Source::Background, weight * background(&self.scene.background, ray.direction)),
+            Some(hit) => {
+                let shading = Shading::at(self.scene, ray, &hit);
+                let (surface, color, from_outside) = (shading.surface, shading.color, shading.from_outside);
+                self.observer.surface(&SurfaceSeen { hit, surface, color, from_outside });
+                self.shade(&shading, weight);
+                self.reflected(&shading, depth, weight);
+                self.transmitted(&shading, depth, weight);
+            }
+        }
+        self.observer.ray_ends();
+    }
+
+    /// What the segment does to the light that comes along it; gives the weight of what is at its far end.
+    fn along(&mut self, length: f64, weight: Rgb) -> Rgb {
+        let mut weight = weight;
+        if let Some(fog) = &self.scene.fog {
+            let veil = veil(fog, length);
+            self.add(Source::Fog, weight * veil.color * (1.0 - veil.visible));
+            weight = weight * veil.visible;
+        }
+        if self.scene.attenuates {
+            weight *= self.media.transmittance(self.scene, length);
+        }
+        weight
+    }
+
+    /// Ambient and direct light given back by the surface itself.
+    fn shade(&mut self, shading: &Shading<'_>, weight: Rgb) {
+        let material = shading.material;
+        let weight = weight * (Rgb::WHITE - material.transparency);
+        if weight.is_black() {
+            return;
+        }
+        let given_back = weight * shading.color;
+        self.add(Source::Ambient, given_back * self.scene.ambient * material.ambient);
+        for (index, light) in self.scene.lights.iter().enumerate() {
+            let Some(arriving) = light.arriving(shading.surface.point) else {
+                let (cosine, visibility) = (0.0, Rgb::BLACK);
+                self.observer.light(&LightSeen { index, distance: None, cosine, visibility });
+                continue;
+            };
+            let cosine = shading.normal.dot(arriving.direction);
+            let mut visible = Rgb::BLACK;
+            if cosine > 0.0 {
+                self.observer.shadow_ray();
+                let ray = shading.ray_back(arriving.direction);
+                visible = visibility(self.scene, &self.media, &ray, arriving.distance);
+            }
+            let distance = Some(arriving.distance);
+            self.observer.light(&LightSeen { index, distance, cosine, visibility: visible });
+            if visible.is_black() {
+                continue;
+            }
+            let light = visible * arriving.light;
+            self.add(Source::Diffuse(index), given_back * light * (material.diffuse * cosine as f32));
+            if !material.specular.is_black() {
+                let strength = highlight(shading, arriving.direction);
+                self.add(Source::Specular(index), weight * material.specular * light * strength);
+            }
+        }
+    }
+
+    /// The mirror image.
+    fn reflected(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb) {
+        let reflection = shading.material.reflection;
+        if !reflection.is_black() {
+            let ray = shading.ray_back(reflect(shading.direction, shading.normal));
+            self.follow(RayKind::Reflected, depth, &ray, weight * reflection);
+        }
+    }
+
+    /// What lies behind, seen straight or bent.
+    fn transmitted(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb) {
+        let material = shading.material;
+        if !material.is_clear() {
+            return;
+        }
+        let weight = weight * material.transparency;
+        if !material.is_medium() {
+            let ray = shading.ray_on(shading.direction);
+            return self.follow(RayKind::Transmitted, depth, &ray, weight);
+        }
+        let before = self.ior_before(shading, material);
+        let undo = self.media.cross(shading.primitive, shading.from_outside);
+        let after = self.media.ior(self.scene);
+        let refracted = refract(shading.direction, shading.normal, before / after);
+        let passed = match refracted {
+            None => 0.0,
+            Some(refracted) if material.fresnel => (1.0 - refracted.reflectance) as f32,
+            Some(_) => 1.0,
+        };
+        if let Some(refracted) = refracted {
+            let ray = shading.ray_on(refracted.direction);
+            self.follow(RayKind::Transmitted, depth, &ray, weight * passed);
+        }
+        self.media.undo(undo);
+        if passed < 1.0 {
+            let ray = shading.ray_back(reflect(shading.direction, shading.normal));
+            self.follow(RayKind::Reflected, depth, &ray, weight * (1.0 - passed));
+        }
+    }
+
+    /// The index of refraction on the ray's side of the surface. A ray that leaves what it never entered (an open shape
+    /// seen from its back) is taken to have been inside.
+    fn ior_before(&self, shading: &Shading<'_>, material: &Material) -> f64 {
+        match material.ior {
+            Some(ior) if !shading.from_outside && !self.media.contains(shading.primitive) => ior,
+            _ => self.media.ior(self.scene),
+        }
+    }
+
+    /// Traces a ray from a surface unless it is too deep or too faint.
+    fn follow(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb) {
+        let settings = &self.scene.settings;
+        if depth >= settings.max_depth {
+            self.observer.not_traced(kind, weight, NotTraced::TooDeep);
+        } else if weight.max_component() < settings.min_weight || weight.is_black() {
+            self.observer.not_traced(kind, weight, NotTraced::TooFaint);
+        } else {
+            self.trace(kind, depth + 1, ray, weight);
+        }
+    }
+
+    fn add(&mut self, source: Source, amount: Rgb) {
+        self.sum += amount;
+        self.observer.contribution(source, amount);
+    }
+}

@@ -1,0 +1,157 @@
+//! Materials, compiled: the numbers that shading reads, and the laws of reflection and refraction.
+
+use durer_math::{DVec3, Rgb, functions};
+use durer_scene::Paint;
+
+/// A material, compiled.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Material {
+    pub(crate) color: Paint,
+    pub(crate) ambient: f32,
+    pub(crate) diffuse: f32,
+    pub(crate) specular: Rgb,
+    pub(crate) shininess: f32,
+    pub(crate) reflection: Rgb,
+    pub(crate) transparency: Rgb,
+    pub(crate) ior: Option<f64>,
+    pub(crate) fresnel: bool,
+    /// What light loses inside, per unit of length, as the exponent of e (Beer–Lambert), negative.
+    pub(crate) attenuation: Option<Rgb>,
+}
+
+impl Material {
+    pub(crate) fn compile(material: &durer_scene::Material) -> Material {
+        let exponent = |a: &durer_scene::Attenuation| {
+            a.color.map(|c| (functions::ln(f64::from(c)) / a.distance) as f32)
+        };
+        Material {
+            color: material.color,
+            ambient: material.ambient,
+            diffuse: material.diffuse,
+            specular: material.specular,
+            shininess: material.shininess,
+            reflection: material.reflection,
+            transparency: material.transparency,
+            ior: material.ior,
+            fresnel: material.fresnel,
+            attenuation: material.attenuation.as_ref().map(exponent),
+        }
+    }
+
+    /// True if some light gets through.
+    pub(crate) fn is_clear(&self) -> bool {
+        !self.transparency.is_black()
+    }
+
+    /// True if what it encloses bends or takes away light.
+    pub(crate) fn is_medium(&self) -> bool {
+        self.is_clear() && (self.ior.is_some() || self.attenuation.is_some())
+    }
+
+    /// What is left of light after a length of the inside.
+    pub(crate) fn transmittance(&self, length: f64) -> Rgb {
+        match self.attenuation {
+            // Where nothing is lost, infinite length must not make 0 · ∞ of it.
+            Some(exponent) => exponent.map(|k| if k == 0.0 { 1.0 } else { functions::exp(k * length as f32) }),
+            None => Rgb::WHITE,
+        }
+    }
+}
+
+/// The direction of a mirror image: `direction` reflected at a surface with unit normal `normal`.
+pub(crate) fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
+    (direction - normal * (2.0 * direction.dot(normal))).normalize()
+}
+
+/// Where light goes on behind a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Refracted {
+    /// Unit direction.
+    pub(crate) direction: DVec3,
+    /// The part of unpolarised light that is reflected instead (Fresnel).
+    pub(crate) reflectance: f64,
+}
+
+/// Snell's law and Fresnel's equations at a smooth boundary; `None` for total internal reflection.
+///
+/// `direction` has unit length and goes against the unit `normal`; `eta` is the index of refraction before the surface
+/// divided by that behind it. Born and Wolf, Principles of Optics, §1.5.
+pub(crate) fn refract(direction: DVec3, normal: DVec3, eta: f64) -> Option<Refracted> {
+    let cos_i = -direction.dot(normal);
+    let sin2_t = eta * eta * (1.0 - cos_i * cos_i).max(0.0);
+    if sin2_t >= 1.0 {
+        return None;
+    }
+    if eta == 1.0 {
+        return Some(Refracted { direction, reflectance: 0.0 });
+    }
+    let cos_t = (1.0 - sin2_t).sqrt();
+    let parallel = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    let perpendicular = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    Some(Refracted {
+        direction: (direction * eta + normal * (eta * cos_i - cos_t)).normalize(),
+        reflectance: 0.5 * (parallel * parallel + perpendicular * perpendicular),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use durer_math::functions::{asin, cos, sin};
+
+    fn at_angle(degrees: f64) -> DVec3 {
+        let a = degrees.to_radians();
+        DVec3::new(sin(a), -cos(a), 0.0)
+    }
+
+    #[test]
+    fn snell_holds_at_every_angle() {
+        for degrees in 0..90 {
+            let direction = at_angle(f64::from(degrees));
+            let out = refract(direction, DVec3::Y, 1.0 / 1.5).unwrap().direction;
+            assert!((out.x * 1.5 - direction.x).abs() < 1e-14);
+            assert!(out.y < 0.0 && out.z == 0.0);
+        }
+    }
+
+    /// Unpolarised reflectance of glass (1.5) in air at 0°, 30°, 45°, 60°, 75°: tabulated values.
+    #[test]
+    fn fresnel_matches_the_table() {
+        let table = [(0.0, 0.04), (30.0, 0.041_52), (45.0, 0.050_24), (60.0, 0.089_19), (75.0, 0.253_2)];
+        for (degrees, expected) in table {
+            let found = refract(at_angle(degrees), DVec3::Y, 1.0 / 1.5).unwrap().reflectance;
+            assert!((found - expected).abs() < 6e-5, "{degrees}°: {found}, not {expected}");
+        }
+        let brewster = functions::atan2(1.5, 1.0).to_degrees();
+        // At Brewster's angle only the perpendicular part is left: ½ ((n² - 1)/(n² + 1))².
+        let found = refract(at_angle(brewster), DVec3::Y, 1.0 / 1.5).unwrap().reflectance;
+        assert!((found - 0.5 * (1.25_f64 / 3.25) * (1.25 / 3.25)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn reflectance_is_the_same_from_both_sides() {
+        for degrees in [5.0, 20.0, 40.0] {
+            let inside = refract(at_angle(degrees), DVec3::Y, 1.5).unwrap();
+            let back = refract(inside.direction, DVec3::Y, 1.0 / 1.5).unwrap();
+            assert!((inside.reflectance - back.reflectance).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_critical_angle_divides_refraction_from_total_reflection() {
+        let critical = asin(1.0 / 1.5).to_degrees(); // 41.81°
+        assert!((critical - 41.810_314_895_778_6).abs() < 1e-9);
+        assert!(refract(at_angle(critical - 1e-6), DVec3::Y, 1.5).is_some());
+        assert!(refract(at_angle(critical + 1e-6), DVec3::Y, 1.5).is_none());
+    }
+
+    #[test]
+    fn attenuation_gives_its_color_at_its_distance_and_the_square_at_twice_that() {
+        let color = Rgb::new(0.5, 0.8, 1.0);
+        let attenuation = Some(durer_scene::Attenuation { color, distance: 3.0 });
+        let material = Material::compile(&durer_scene::Material { attenuation, ..Default::default() });
+        let near = |a: Rgb, b: Rgb| (a - b).map(f32::abs).max_component() < 1e-6;
+        assert!(near(material.transmittance(3.0), color) && near(material.transmittance(6.0), color * color));
+        assert_eq!(material.transmittance(f64::INFINITY), Rgb::new(0.0, 0.0, 1.0));
+    }
+}

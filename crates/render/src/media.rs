@@ -1,0 +1,97 @@
+//! Which media a ray is inside: the innermost one decides how light bends and what it loses.
+//!
+//! Media may overlap and nest. The one entered last is the innermost; leaving one that is not innermost changes nothing
+//! for the ray until the others are left, too.
+
+use crate::compile::CompiledScene;
+use durer_geometry::Ray;
+use durer_math::Rgb;
+
+/// The media around a point on a ray's path, outermost first, as primitives' indices.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Media {
+    inside: Vec<u32>,
+}
+
+/// What [`Media::cross`] changed, so that it can be undone.
+#[derive(Clone, Copy, Debug)]
+#[must_use]
+pub(crate) enum Undo {
+    Nothing,
+    Pop,
+    Insert { at: usize, primitive: u32 },
+}
+
+impl Media {
+    /// The media around a ray's origin, nested by where the ray leaves them: what is left last is outermost.
+    pub(crate) fn around(scene: &CompiledScene, ray: &Ray) -> Media {
+        let primitives = scene.world.primitives();
+        let mut exits: Vec<(f64, u32)> = Vec::new();
+        for &id in &scene.media {
+            let primitive = &primitives[id as usize];
+            if primitive.contains(ray.origin) {
+                let exit = primitive.intersect(ray, f64::INFINITY).map_or(f64::INFINITY, |c| c.t);
+                exits.push((exit, id));
+            }
+        }
+        exits.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        Media { inside: exits.into_iter().map(|(_, id)| id).collect() }
+    }
+
+    /// Enters or leaves a primitive.
+    pub(crate) fn cross(&mut self, primitive: u32, entering: bool) -> Undo {
+        if entering {
+            self.inside.push(primitive);
+            return Undo::Pop;
+        }
+        match self.inside.iter().rposition(|&id| id == primitive) {
+            Some(at) => Undo::Insert { at, primitive: self.inside.remove(at) },
+            None => Undo::Nothing,
+        }
+    }
+
+    /// Goes back to before a crossing; crossings must be undone in reverse order.
+    pub(crate) fn undo(&mut self, undo: Undo) {
+        match undo {
+            Undo::Nothing => {}
+            Undo::Pop => {
+                self.inside.pop();
+            }
+            Undo::Insert { at, primitive } => self.inside.insert(at, primitive),
+        }
+    }
+
+    /// True if the primitive is among them.
+    pub(crate) fn contains(&self, primitive: u32) -> bool {
+        self.inside.contains(&primitive)
+    }
+
+    /// The index of refraction here: that of the innermost medium that has one, 1 outside of all.
+    pub(crate) fn ior(&self, scene: &CompiledScene) -> f64 {
+        self.inside.iter().rev().find_map(|&id| scene.material(id).ior).unwrap_or(1.0)
+    }
+
+    /// What is left of light after a length of the innermost medium.
+    pub(crate) fn transmittance(&self, scene: &CompiledScene, length: f64) -> Rgb {
+        match self.inside.last() {
+            Some(&id) => scene.material(id).transmittance(length),
+            None => Rgb::WHITE,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn overlapping_media_are_left_in_any_order_and_undone_in_reverse() {
+        let mut media = Media::default();
+        let undo = [media.cross(1, true), media.cross(2, true), media.cross(1, false), media.cross(7, false)];
+        assert_eq!(media.inside, [2]);
+        for step in undo.into_iter().rev() {
+            media.undo(step);
+        }
+        assert_eq!(media, Media::default());
+    }
+}

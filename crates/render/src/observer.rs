@@ -1,0 +1,119 @@
+//! Who watches rays being traced: nobody, a counter, or `explain`.
+//!
+//! The integrator tells an observer what it does; it is one program whoever watches, so what `explain` shows is what
+//! `render` did. For an observer that ignores an event the compiler removes the call.
+
+use durer_geometry::{Hit, Ray, Surface};
+use durer_math::Rgb;
+
+/// Why a ray is traced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RayKind {
+    /// From the eye.
+    Eye,
+    /// From a mirror.
+    Reflected,
+    /// Through a clear surface, straight or bent.
+    Transmitted,
+}
+
+/// Where a contribution to a pixel comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The fog along a ray.
+    Fog,
+    /// The background.
+    Background,
+    /// Ambient light given back by a surface.
+    Ambient,
+    /// The light with this index, given back in all directions.
+    Diffuse(usize),
+    /// The highlight of the light with this index.
+    Specular(usize),
+}
+
+/// Why a ray that a surface asks for was not traced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotTraced {
+    /// The chain of rays is as long as it may be.
+    TooDeep,
+    /// Its weight in the pixel is below the cut-off.
+    TooFaint,
+}
+
+/// What shading found out about a hit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SurfaceSeen {
+    pub(crate) hit: Hit,
+    pub(crate) surface: Surface,
+    /// The colour of the texture there.
+    pub(crate) color: Rgb,
+    /// True if the ray came from the side that the normal points to.
+    pub(crate) from_outside: bool,
+}
+
+/// What was found out about a light at a hit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LightSeen {
+    pub(crate) index: usize,
+    /// `None` where it does not shine (outside of a spot's cone).
+    pub(crate) distance: Option<f64>,
+    /// Between the normal and the direction to the light; not positive if the light is behind the surface.
+    pub(crate) cosine: f64,
+    /// What gets through to the point.
+    pub(crate) visibility: Rgb,
+}
+
+/// Told what an integrator does. Rays nest: between `ray_begins` and `ray_ends` of one come those of its children.
+pub(crate) trait Observer {
+    fn ray_begins(&mut self, _kind: RayKind, _depth: u32, _ray: &Ray, _weight: Rgb) {}
+    fn surface(&mut self, _seen: &SurfaceSeen) {}
+    fn light(&mut self, _seen: &LightSeen) {}
+    fn shadow_ray(&mut self) {}
+    /// An amount added to the pixel, weights included. The pixel is the sum of these, in this order.
+    fn contribution(&mut self, _source: Source, _amount: Rgb) {}
+    fn not_traced(&mut self, _kind: RayKind, _weight: Rgb, _why: NotTraced) {}
+    fn ray_ends(&mut self) {}
+}
+
+/// How many rays were traced, by kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RayCounts {
+    /// From the eye.
+    pub eye: u64,
+    /// From mirrors.
+    pub reflected: u64,
+    /// Through clear surfaces.
+    pub transmitted: u64,
+    /// Towards lights.
+    pub shadow: u64,
+}
+
+impl RayCounts {
+    /// Rays of all kinds.
+    pub fn total(&self) -> u64 {
+        self.eye + self.reflected + self.transmitted + self.shadow
+    }
+
+    /// Adds other counts to these.
+    pub fn add(&mut self, other: &RayCounts) {
+        self.eye += other.eye;
+        self.reflected += other.reflected;
+        self.transmitted += other.transmitted;
+        self.shadow += other.shadow;
+    }
+}
+
+impl Observer for RayCounts {
+    fn ray_begins(&mut self, kind: RayKind, _depth: u32, _ray: &Ray, _weight: Rgb) {
+        match kind {
+            RayKind::Eye => self.eye += 1,
+            RayKind::Reflected => self.reflected += 1,
+            RayKind::Transmitted => self.transmitted += 1,
+        }
+    }
+
+    fn shadow_ray(&mut self) {
+        self.shadow += 1;
+    }
+}
