@@ -114,8 +114,7 @@ fn as_seen(color: Rgb) -> Rgb {
 
 /// The colour that a screen shows, in linear light: clamped, NaN becoming black.
 pub(crate) fn clamped(color: Rgb) -> Rgb {
-    // `max` of NaN and a number is the number.
-    color.map(|v| v.max(0.0).min(1.0))
+    color.map(|v| if v > 0.0 { v.min(1.0) } else { 0.0 })
 }
 
 #[cfg(test)]

@@ -96,9 +96,9 @@ fn srgb_steps() -> Vec<f32> {
             while high - low > 1 {
                 let middle = low + (high - low) / 2;
                 if byte_from_linear(f32::from_bits(middle), Transfer::Srgb) >= byte {
-                    high = middle
+                    high = middle;
                 } else {
-                    low = middle
+                    low = middle;
                 }
             }
             f32::from_bits(high)
@@ -140,14 +140,11 @@ mod tests {
         for transfer in [Transfer::Srgb, Transfer::Linear] {
             let quantizer = ByteQuantizer::new(transfer);
             (0..=u32::MAX).step_by(4093).for_each(|bits| check(&quantizer, transfer, bits));
-            (SMALLEST.to_bits()..=1f32.to_bits()).step_by(61).for_each(|bits| check(&quantizer, transfer, bits));
         }
     }
 
-    /// Takes a minute; run it after a change to the curve, to `pow`, or to this file.
     #[test]
-    #[ignore = "all floats from 0 to 1: a minute"]
-    fn agrees_with_the_definition_for_every_float() {
+    fn agrees_with_the_definition_for_every_float_from_black_to_white() {
         let quantizer = ByteQuantizer::new(Transfer::Srgb);
         (0..=1f32.to_bits()).for_each(|bits| check(&quantizer, Transfer::Srgb, bits));
     }

@@ -29,7 +29,14 @@ impl Canvas {
 }
 
 /// Reads the first layer that has the channels R, G and B, or else the first with Y, over its data window.
+///
+/// In builds that check for overflow the crate panics over broken B44 data; that ends here, as an error.
 pub(crate) fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, DecodeError> {
+    let read = std::panic::catch_unwind(|| decode_flat(bytes, limits));
+    read.unwrap_or_else(|_| Err(corrupt("its compressed data make no sense".into())))
+}
+
+fn decode_flat(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, DecodeError> {
     let headers = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(decode_error)?.headers;
     headers.iter().try_for_each(|header| check_size(header, limits))?;
     let (canvas, size) = if headers.iter().any(|header| has_channels(header, &["R", "G", "B"])) {

@@ -216,7 +216,7 @@ fn write_different(bytes: &mut Vec<u8>, values: &[u8]) {
 /// The stored pixel of an amount of light. Negative numbers and NaN become 0, too large ones the largest.
 fn stored(color: Rgb) -> Rgbe {
     const LARGEST: f64 = 255.0 * (1u128 << 119) as f64;
-    let color = color.to_array().map(|v| f64::from(v).max(0.0).min(LARGEST));
+    let color = color.to_array().map(|v| if v > 0.0 { f64::from(v).min(LARGEST) } else { 0.0 });
     let largest = color[0].max(color[1]).max(color[2]);
     // The exponent that puts the largest mantissa between 128 and 256, from the bits of the number.
     let mut exponent = (largest.to_bits() >> 52) as i32 - 1022;

@@ -83,9 +83,9 @@ pub(crate) fn encode(image: &Image, options: &EncodeOptions) -> Result<Vec<u8>, 
     for (keyword, text) in &options.metadata {
         add_text(&mut encoder, keyword, text)?;
     }
-    let mut writer = encoder.write_header().map_err(encode_error)?;
-    writer.write_image_data(&samples(image, options)).map_err(encode_error)?;
-    writer.finish().map_err(encode_error)?;
+    let mut writer = encoder.write_header().map_err(|error| encode_error(&error))?;
+    writer.write_image_data(&samples(image, options)).map_err(|error| encode_error(&error))?;
+    writer.finish().map_err(|error| encode_error(&error))?;
     Ok(bytes)
 }
 
@@ -103,7 +103,7 @@ fn add_text(encoder: &mut ::png::Encoder<'_, &mut Vec<u8>>, keyword: &str, text:
     let keyword = keyword.to_owned();
     let added =
         if text.is_ascii() { encoder.add_text_chunk(keyword, text) } else { encoder.add_itxt_chunk(keyword, text) };
-    added.map_err(encode_error)
+    added.map_err(|error| encode_error(&error))
 }
 
 /// The rows' bytes, 16-bit numbers with the high byte first.
@@ -118,6 +118,6 @@ fn samples(image: &Image, options: &EncodeOptions) -> Vec<u8> {
     }
 }
 
-fn encode_error(error: EncodingError) -> EncodeError {
+fn encode_error(error: &EncodingError) -> EncodeError {
     EncodeError::Failed { format: FileFormat::Png, detail: error.to_string() }
 }
