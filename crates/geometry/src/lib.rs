@@ -9,9 +9,11 @@ mod primitive;
 mod ray;
 mod shapes;
 mod simd;
+mod vantage;
 mod world;
 
 pub use bounds::Bounds;
 pub use primitive::{Primitive, Surface};
 pub use ray::{Crossing, Ray};
+pub use vantage::Vantage;
 pub use world::{Hit, World};

@@ -63,18 +63,6 @@ pub struct Surface {
     pub offset: f64,
 }
 
-impl Surface {
-    /// The ray from here on the side that the normal points to.
-    pub fn ray_outside(&self, direction: DVec3) -> Ray {
-        Ray { origin: self.point + self.normal * self.offset, direction }
-    }
-
-    /// The ray from here on the other side.
-    pub fn ray_inside(&self, direction: DVec3) -> Ray {
-        Ray { origin: self.point - self.normal * self.offset, direction }
-    }
-}
-
 /// The constructors take measures in an object's space, and the map from there to the world.
 impl Primitive {
     /// The infinite plane through `point`, facing `normal`.

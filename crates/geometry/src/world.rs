@@ -2,6 +2,7 @@
 
 use crate::bvh::{Bvh, build::build};
 use crate::simd::planes::Planes;
+use crate::vantage::{MOST_PRIMITIVES, Vantage};
 use crate::{Bounds, Crossing, Primitive, Ray, Surface};
 use durer_math::{DVec2, DVec3};
 use fearless_simd::{Level, Simd, dispatch};
@@ -71,59 +72,77 @@ impl World {
             + self.bvh.memory()
     }
 
+    /// Prepares for many rays through one point; `None` if that would not pay.
+    pub fn vantage(&self, point: DVec3) -> Option<Vantage> {
+        let boxes = || self.bounded_ids.iter().map(|&id| (id, self.primitives[id as usize].bounds())).collect::<Vec<_>>();
+        (self.bounded_ids.len() <= MOST_PRIMITIVES).then(|| Vantage::new(point, &boxes()))
+    }
+
     /// The nearest hit with 0 < t < `t_max` on a primitive that shares a bit with `mask`.
-    pub fn closest_hit(&self, ray: &Ray, t_max: f64, mask: u32) -> Option<Hit> {
-        dispatch!(self.level, simd => self.closest_hit_with(simd, ray, t_max, mask))
+    ///
+    /// `origin` is a vantage at the ray's origin, if there is one; it changes nothing but the speed.
+    pub fn closest_hit(&self, ray: &Ray, t_max: f64, mask: u32, origin: Option<&Vantage>) -> Option<Hit> {
+        let listed = origin.and_then(|vantage| vantage.candidates(ray.direction));
+        dispatch!(self.level, simd => self.closest_hit_with(simd, ray, t_max, mask, listed))
     }
 
     #[inline(always)]
-    fn closest_hit_with<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, mask: u32) -> Option<Hit> {
+    fn closest_hit_with<S: Simd>(
+        &self,
+        simd: S,
+        ray: &Ray,
+        t_max: f64,
+        mask: u32,
+        listed: Option<&[u32]>,
+    ) -> Option<Hit> {
         let mut best = Best { hit: None, t_max };
         for (planes, ids) in self.planes.iter().zip(self.plane_ids.chunks(4)) {
-            let (mut hits, t) = planes.hits(simd, ray, best.reach());
-            while hits != 0 {
-                let slot = hits.trailing_zeros() as usize & 3;
-                hits &= hits - 1;
-                if self.primitives[ids[slot] as usize].mask & mask != 0 {
-                    best.offer(ids[slot], Crossing { t: t[slot], part: 0 });
-                }
+            let (hits, t) = planes.hits(simd, ray, best.reach());
+            for slot in slots(hits).filter(|&slot| self.primitives[ids[slot] as usize].mask & mask != 0) {
+                best.offer(ids[slot], Crossing { t: t[slot], part: 0 });
             }
         }
         let reach = best.reach();
-        self.bvh.nearest(simd, ray, reach, |thing, reach| {
-            let id = self.bounded_ids[thing as usize];
+        let mut test = |id: u32| {
             let primitive = &self.primitives[id as usize];
-            if primitive.mask & mask == 0 {
-                return None;
+            if primitive.mask & mask != 0
+                && let Some(crossing) = primitive.intersect(ray, best.reach())
+            {
+                best.offer(id, crossing);
             }
-            let crossing = primitive.intersect(ray, reach)?;
-            best.offer(id, crossing);
-            Some(best.reach())
-        });
+            best.reach()
+        };
+        match listed {
+            Some(ids) => ids.iter().for_each(|&id| _ = test(id)),
+            None => self.bvh.nearest(simd, ray, reach, |thing| test(self.bounded_ids[thing as usize])),
+        }
         best.hit
     }
 
     /// True if some primitive that shares a bit with `mask` is met with 0 < t < `t_max`.
-    pub fn any_hit(&self, ray: &Ray, t_max: f64, mask: u32) -> bool {
-        dispatch!(self.level, simd => self.any_hit_with(simd, ray, t_max, mask))
+    ///
+    /// `end` is a vantage at the point that the ray is aimed at, if there is one; it changes nothing but the speed.
+    pub fn any_hit(&self, ray: &Ray, t_max: f64, mask: u32, end: Option<&Vantage>) -> bool {
+        let listed = end.and_then(|vantage| vantage.candidates(-ray.direction));
+        dispatch!(self.level, simd => self.any_hit_with(simd, ray, t_max, mask, listed))
     }
 
     #[inline(always)]
-    fn any_hit_with<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, mask: u32) -> bool {
+    fn any_hit_with<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, mask: u32, listed: Option<&[u32]>) -> bool {
         for (planes, ids) in self.planes.iter().zip(self.plane_ids.chunks(4)) {
-            let (mut hits, _) = planes.hits(simd, ray, t_max);
-            while hits != 0 {
-                let slot = hits.trailing_zeros() as usize & 3;
-                hits &= hits - 1;
-                if self.primitives[ids[slot] as usize].mask & mask != 0 {
-                    return true;
-                }
+            let (hits, _) = planes.hits(simd, ray, t_max);
+            if slots(hits).any(|slot| self.primitives[ids[slot] as usize].mask & mask != 0) {
+                return true;
             }
         }
-        self.bvh.any(simd, ray, t_max, |thing| {
-            let primitive = &self.primitives[self.bounded_ids[thing as usize] as usize];
+        let test = |id: u32| {
+            let primitive = &self.primitives[id as usize];
             primitive.mask & mask != 0 && primitive.intersect(ray, t_max).is_some()
-        })
+        };
+        match listed {
+            Some(ids) => ids.iter().any(|&id| test(id)),
+            None => self.bvh.any(simd, ray, t_max, |thing| test(self.bounded_ids[thing as usize])),
+        }
     }
 
     /// The surface at a hit of `ray`.
@@ -135,6 +154,16 @@ impl World {
     pub fn uv(&self, point: DVec3, hit: &Hit) -> DVec2 {
         self.primitives[hit.primitive as usize].uv(point, hit.crossing.part)
     }
+}
+
+/// The bits that are set, lowest first, of the four that a group of planes has.
+#[inline(always)]
+fn slots(mut bits: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let slot = (bits != 0).then(|| bits.trailing_zeros() as usize & 3)?;
+        bits &= bits - 1;
+        Some(slot)
+    })
 }
 
 /// The best hit so far.

@@ -48,6 +48,11 @@ impl Camera {
         }
     }
 
+    /// The point that all rays start from, if there is one.
+    pub(crate) fn eye(&self) -> Option<DVec3> {
+        (!self.parallel).then_some(self.position)
+    }
+
     /// The ray through a point of the picture, in pixels from its upper left corner.
     pub(crate) fn ray(&self, at: DVec2) -> Ray {
         let (x, y) = (2.0 * at.x / self.size.x - 1.0, 1.0 - 2.0 * at.y / self.size.y);

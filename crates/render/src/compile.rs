@@ -4,7 +4,7 @@ use crate::camera::Camera;
 use crate::lights::Light;
 use crate::materials::Material;
 use crate::textures::Textures;
-use durer_geometry::{Bounds, Primitive, World};
+use durer_geometry::{Bounds, Primitive, Vantage, World};
 use durer_math::{DAffine3, DVec2, Rgb};
 use durer_scene::{Background, CheckedScene, Fog, MaterialId, Object, ObjectKind, Picture, RenderSettings, Scene, Shape};
 
@@ -22,7 +22,11 @@ pub struct CompiledScene {
     pub(crate) materials: Vec<Material>,
     pub(crate) textures: Textures,
     pub(crate) lights: Vec<Light>,
+    /// For each light that shines from a point, what is seen from there.
+    pub(crate) light_vantages: Vec<Option<Vantage>>,
     pub(crate) camera: Camera,
+    /// What is seen from the eye, unless the projection is parallel.
+    pub(crate) eye_vantage: Option<Vantage>,
     pub(crate) background: Background,
     pub(crate) ambient: Rgb,
     pub(crate) fog: Option<Fog>,
@@ -58,13 +62,17 @@ pub fn compile(scene: &CheckedScene) -> CompiledScene {
     let has_clear = primitives.iter().any(|p| p.mask & CLEAR != 0);
     let world = World::build(primitives);
     let Picture { width, height, .. } = scene.picture;
+    let camera = Camera::compile(scene.camera.as_ref(), world.bounds(), width, height);
+    let lights: Vec<Light> = scene.lights.iter().map(Light::compile).collect();
     CompiledScene {
-        camera: Camera::compile(scene.camera.as_ref(), world.bounds(), width, height),
+        eye_vantage: camera.eye().and_then(|eye| world.vantage(eye)),
+        camera,
+        light_vantages: lights.iter().map(|light| world.vantage(light.position()?)).collect(),
+        lights,
         world,
         objects,
         materials,
         textures: Textures::compile(scene),
-        lights: scene.lights.iter().map(Light::compile).collect(),
         background: scene.background,
         ambient: scene.ambient,
         fog: scene.fog,

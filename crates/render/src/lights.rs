@@ -50,6 +50,14 @@ impl Light {
         Light { power: light.color * light.intensity, kind }
     }
 
+    /// The point that it shines from, if there is one.
+    pub(crate) fn position(&self) -> Option<DVec3> {
+        match self.kind {
+            Kind::Point { position, .. } | Kind::Spot { position, .. } => Some(position),
+            Kind::Directional { .. } => None,
+        }
+    }
+
     /// What arrives at a point; `None` where the light does not shine.
     #[inline]
     pub(crate) fn arriving(&self, at: DVec3) -> Option<Arriving> {

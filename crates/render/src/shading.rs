@@ -34,14 +34,19 @@ impl<'a> Shading<'a> {
         Shading { primitive: hit.primitive, surface, material, color, direction: ray.direction, normal, from_outside }
     }
 
+    /// The point from which rays start on the side that the ray came from.
+    pub(crate) fn origin_back(&self) -> DVec3 {
+        self.surface.point + self.normal * self.surface.offset
+    }
+
     /// A ray from here on the side that the ray came from.
     pub(crate) fn ray_back(&self, direction: DVec3) -> Ray {
-        if self.from_outside { self.surface.ray_outside(direction) } else { self.surface.ray_inside(direction) }
+        Ray { origin: self.origin_back(), direction }
     }
 
     /// A ray from here on the far side.
     pub(crate) fn ray_on(&self, direction: DVec3) -> Ray {
-        if self.from_outside { self.surface.ray_inside(direction) } else { self.surface.ray_outside(direction) }
+        Ray { origin: self.surface.point - self.normal * self.surface.offset, direction }
     }
 }
 

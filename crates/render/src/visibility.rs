@@ -13,13 +13,14 @@ const SHORT_OF_LIGHT: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;
 /// What is left of light on the way along `ray` over `distance`: nothing behind something opaque; else the product of
 /// the transparencies of all clear surfaces and of what media take away. `media` are those around the ray's origin.
 ///
-/// Light goes straight here, also through what would bend it.
+/// The ray must be aimed at the light with the index `light`. It goes straight, also through what would bend it.
 #[inline]
-pub(crate) fn visibility(scene: &CompiledScene, media: &Media, ray: &Ray, distance: f64) -> Rgb {
+pub(crate) fn visibility(scene: &CompiledScene, media: &Media, ray: &Ray, distance: f64, light: usize) -> Rgb {
     let reach = distance * SHORT_OF_LIGHT;
-    if scene.world.any_hit(ray, reach, OPAQUE) {
+    let vantage = scene.light_vantages[light].as_ref();
+    if scene.world.any_hit(ray, reach, OPAQUE, vantage) {
         Rgb::BLACK
-    } else if scene.has_clear {
+    } else if scene.has_clear && (scene.attenuates || scene.world.any_hit(ray, reach, CLEAR, vantage)) {
         through_clear(scene, media, *ray, reach)
     } else {
         Rgb::WHITE
@@ -29,7 +30,7 @@ pub(crate) fn visibility(scene: &CompiledScene, media: &Media, ray: &Ray, distan
 fn through_clear(scene: &CompiledScene, media: &Media, mut ray: Ray, mut reach: f64) -> Rgb {
     let mut left = Rgb::WHITE;
     let mut media = if scene.attenuates { media.clone() } else { Media::default() };
-    while let Some(hit) = scene.world.closest_hit(&ray, reach, CLEAR) {
+    while let Some(hit) = scene.world.closest_hit(&ray, reach, CLEAR, None) {
         let shading = Shading::at(scene, &ray, &hit);
         left *= shading.material.transparency;
         if scene.attenuates {

@@ -10,26 +10,26 @@ use fearless_simd::Simd;
 type Stack = ArrayVec<(u32, f32), { 7 * MAX_DEPTH + 8 }>;
 
 impl Bvh {
-    /// Calls `test(thing, t_max)` for the things whose boxes the ray may meet before `t_max`, roughly from near to far;
-    /// `test` gives the new, smaller `t_max` if the thing was hit.
+    /// Calls `test(thing)` for the things whose boxes the ray may meet before `t_max`, roughly from near to far; `test`
+    /// gives the new `t_max`, smaller if the thing was hit.
     #[inline(always)]
     pub(crate) fn nearest<S: Simd>(
         &self,
         simd: S,
         ray: &Ray,
         t_max: f64,
-        mut test: impl FnMut(u32, f64) -> Option<f64>,
+        mut test: impl FnMut(u32) -> f64,
     ) {
         if self.nodes.is_empty() {
             return;
         }
         let box_ray = BoxRay::new(ray);
-        let (mut t_max, mut t_max_rounded) = (t_max, round_up(t_max));
+        let mut t_max = round_up(t_max);
         let mut stack = Stack::new();
         let mut index = 0;
         loop {
             let node = &self.nodes[index];
-            let (mut hits, enter) = box_ray.hits(simd, &node.boxes, t_max_rounded);
+            let (mut hits, enter) = box_ray.hits(simd, &node.boxes, t_max);
             let waiting = stack.len();
             while hits != 0 {
                 let slot = hits.trailing_zeros() as usize;
@@ -38,16 +38,12 @@ impl Bvh {
             }
             index = loop {
                 let Some((child, enter)) = stack.pop() else { return };
-                if enter > t_max_rounded {
+                if enter > t_max {
                     continue;
                 }
                 match super::Child(child).thing() {
                     None => break super::Child(child).index(),
-                    Some(thing) => {
-                        if let Some(t) = test(thing, t_max) {
-                            (t_max, t_max_rounded) = (t, round_up(t));
-                        }
-                    }
+                    Some(thing) => t_max = round_up(test(thing)),
                 }
             };
         }

@@ -72,10 +72,13 @@ impl Cone {
         let c = ox * ox + oz * oz - w * w;
         let parallel = (dr2 - dw2).abs() <= 4.0 * f64::EPSILON * (dr2 + dw2);
         let a = if parallel { 0.0 } else { dr2 - dw2 };
+        // b² - a c, of whose terms the large ones cancel here before they are formed, near the apex too.
+        let (mx, mz, my) = (ox * dw - w * dx, oz * dw - w * dz, ox * dz - oz * dx);
+        let along = Quadratic { a, b, c, discriminant: mx * mx + mz * mz - my * my };
         let (enter, exit) = if c <= 0.0 && w >= 0.0 && !(c == 0.0 && parallel && b == 0.0) {
-            (f64::NEG_INFINITY, exit_from_inside(a, b, c, dw))
+            (f64::NEG_INFINITY, along.exit_from_inside(dw))
         } else {
-            enter_from_outside(a, b, c, dw)?
+            along.enter_from_outside(dw)?
         };
         Some(Span { enter, exit, enter_part: 0, exit_part: 0 })
     }
@@ -86,47 +89,59 @@ impl Cone {
         let r = (p.x * p.x + p.z * p.z).sqrt();
         let beyond = (r - self.radius_at(p.y)) / (1.0 + k * k);
         let y = (p.y + k * beyond).clamp(1.0 - INSET, INSET);
-        if r == 0.0 {
+        if r == 0.0 && self.base_radius * self.top_radius == 0.0 {
             let (tip, up) = if k < 0.0 { (1.0, 1.0) } else { (0.0, -1.0) };
             return (DVec3::new(0.0, tip, 0.0), DVec3::new(0.0, up, 0.0));
         }
-        let (x, z) = (p.x / r, p.z / r);
+        let (x, z) = if r > 0.0 { (p.x / r, p.z / r) } else { (1.0, 0.0) };
         let w = self.radius_at(y);
         (DVec3::new(x * w, y, z * w), DVec3::new(x, -k, z))
     }
 }
 
-/// Where a ray that starts in the cone leaves it. The discriminant may be below 0 by rounding only.
-#[inline]
-fn exit_from_inside(a: f64, b: f64, c: f64, dw: f64) -> f64 {
-    let widening = a <= 0.0 && dw >= 0.0;
-    if b > 0.0 && !widening {
-        -c / (b + (b * b - a * c).max(0.0).sqrt())
-    } else if a > 0.0 {
-        ((b * b - a * c).max(0.0).sqrt() - b) / a
-    } else {
-        f64::INFINITY
-    }
+/// a t² + 2 b t + c, below 0 in the cone and its opposite, and b² - a c.
+struct Quadratic {
+    a: f64,
+    b: f64,
+    c: f64,
+    discriminant: f64,
 }
 
-/// Where a ray that starts outside the cone, perhaps in the opposite one, enters and leaves it.
-#[inline]
-fn enter_from_outside(a: f64, b: f64, c: f64, dw: f64) -> Option<(f64, f64)> {
-    let discriminant = b * b - a * c;
-    let approaching = c > 0.0 && b < 0.0;
-    if a >= 0.0 {
-        // c ≤ 0 is the opposite cone, which a ray this flat does not leave for ours.
-        if !approaching || discriminant < 0.0 {
+impl Quadratic {
+    /// Where a ray that starts in the cone leaves it; w changes by `dw` along it. Below 0 the discriminant can be by
+    /// rounding only.
+    #[inline]
+    fn exit_from_inside(&self, dw: f64) -> f64 {
+        let root = self.discriminant.max(0.0).sqrt();
+        let widening = self.a <= 0.0 && dw >= 0.0;
+        if self.b > 0.0 && !widening {
+            -self.c / (self.b + root)
+        } else if self.a > 0.0 {
+            (root - self.b) / self.a
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// Where a ray that starts outside the cone, perhaps in the opposite one, enters and leaves it.
+    #[inline]
+    fn enter_from_outside(&self, dw: f64) -> Option<(f64, f64)> {
+        let Quadratic { a, b, c, discriminant } = *self;
+        let approaching = c > 0.0 && b < 0.0;
+        if a >= 0.0 {
+            // c ≤ 0 is the opposite cone, which a ray this flat does not leave for ours.
+            if !approaching || discriminant < 0.0 {
+                return None;
+            }
+            let q = discriminant.sqrt() - b;
+            return Some((c / q, if a > 0.0 { q / a } else { f64::INFINITY }));
+        }
+        if dw <= 0.0 {
             return None;
         }
-        let q = discriminant.sqrt() - b;
-        return Some((c / q, if a > 0.0 { q / a } else { f64::INFINITY }));
+        let root = discriminant.max(0.0).sqrt();
+        Some((if approaching { c / (root - b) } else { (b + root) / -a }, f64::INFINITY))
     }
-    if dw <= 0.0 {
-        return None;
-    }
-    let root = discriminant.max(0.0).sqrt();
-    Some((if approaching { c / (root - b) } else { (b + root) / -a }, f64::INFINITY))
 }
 
 impl Shape for Cone {
@@ -172,5 +187,90 @@ impl Shape for Cone {
     /// radius, half of that in distance, and w itself to 2 u. Twice their sum.
     fn rounding(&self) -> f64 {
         11.0 * f64::EPSILON
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::Known;
+    use super::*;
+
+    /// Full and cut cones both ways up, one all but a cylinder, and the cylinder.
+    const RADII: [(f64, f64); 7] =
+        [(1.0, 0.0), (0.0, 1.0), (1.0, 0.5), (0.25, 1.0), (1.0, 1e-9), (1.0, 0.999_999_9), (1.0, 1.0)];
+
+    fn side(p: DVec3, (base, top): (f64, f64)) -> f64 {
+        let k = top - base;
+        ((p.x * p.x + p.z * p.z).sqrt() - base - k * p.y) / (1.0 + k * k).sqrt()
+    }
+
+    /// Calls `check` with the cone of each pair of radii, and its side's level.
+    fn each(open: bool, check: impl Fn(&Cone, &dyn Fn(DVec3) -> f64)) {
+        for radii in RADII {
+            check(&Cone { base_radius: radii.0, top_radius: radii.1, open }, &|p| side(p, radii));
+        }
+    }
+
+    #[test]
+    fn closed_keeps_the_laws() {
+        each(false, |cone, level| {
+            let known = Known { shape: cone, levels: &[level, &|p| -p.y, &|p| p.y - 1.0] };
+            known.hits_obey_the_equation();
+            known.crossings_match_sampling(&|p| level(p).max(-p.y).max(p.y - 1.0), true, |_| true);
+            known.leaves_and_enters_once(true);
+            known.far_rays_are_precise(true);
+        });
+    }
+
+    #[test]
+    fn open_keeps_the_laws() {
+        each(true, |cone, level| {
+            let known = Known { shape: cone, levels: &[level] };
+            known.hits_obey_the_equation();
+            known.crossings_match_sampling(level, false, |p| p.y > 0.0 && p.y < 1.0);
+        });
+    }
+
+    #[test]
+    fn rims_and_tips_have_no_gap() {
+        let ring = [(1., 0.), (0., 1.), (-1., 0.), (0., -1.), (0.6, 0.8), (-0.8, 0.6), (0.28, -0.96)];
+        each(false, |cone, level| {
+            let rim: Vec<_> = ring
+                .iter()
+                .flat_map(|&(x, z)| {
+                    [(0.0, cone.base_radius), (1.0, cone.top_radius)].map(|(y, r)| DVec3::new(x * r, y, z * r))
+                })
+                .collect();
+            let known = Known { shape: cone, levels: &[level, &|p| -p.y, &|p| p.y - 1.0] };
+            known.rims_have_no_gap(&rim);
+        });
+    }
+
+    #[test]
+    fn along_generator_and_axis() {
+        let cone = |open| Cone { base_radius: 1.0, top_radius: 0.0, open };
+        let hit = |open, origin, direction| cone(open).intersect(&Ray { origin, direction }, f64::INFINITY);
+        let tip = hit(false, DVec3::new(0.0, 3.0, 0.0), DVec3::NEG_Y).expect("the tip");
+        assert_eq!(tip, Crossing { t: 2.0, part: 0 });
+        assert_eq!(cone(false).surface(DVec3::Y, tip.part), (DVec3::Y, DVec3::Y));
+        assert_eq!(hit(false, DVec3::new(0.0, -1.0, 0.0), DVec3::Y), Some(Crossing { t: 1.0, part: 1 }));
+        assert_eq!(hit(true, DVec3::new(0.0, -1.0, 0.0), DVec3::Y), Some(Crossing { t: 2.0, part: 0 }));
+        // Parallel to the side from the tip to +x: in from the opposite side, out through the base.
+        let along = DVec3::new(1.0, -1.0, 0.0);
+        assert_eq!(hit(false, DVec3::new(-1.0, 1.0, 0.0), along), Some(Crossing { t: 0.5, part: 0 }));
+        assert_eq!(hit(false, DVec3::new(0.25, 0.5, 0.0), along), Some(Crossing { t: 0.5, part: 1 }));
+        assert_eq!(hit(true, DVec3::new(0.25, 0.5, 0.0), along), None);
+        // Just above the side it misses, and through the opposite cone's inside likewise.
+        assert_eq!(hit(false, DVec3::new(-0.5, 1.5 + 1e-9, 0.0), along), None);
+        assert_eq!(hit(false, DVec3::new(-3.0, 1.5, 0.0), DVec3::X), None);
+    }
+
+    #[test]
+    fn texture_coordinates() {
+        let at = |x, y, z, part| Cone { base_radius: 1.0, top_radius: 0.5, open: false }.uv(DVec3::new(x, y, z), part);
+        assert_eq!(at(1.0, 0.0, 0.0, 0), DVec2::new(0.5, 0.0));
+        assert_eq!(at(0.0, 0.5, -0.75, 0), DVec2::new(0.25, 0.5));
+        assert_eq!(at(-0.5, 1.0, 0.0, 2), DVec2::new(0.25, 0.5));
+        assert_eq!(at(0.0, 0.0, 1.0, 1), DVec2::new(0.5, 1.0));
     }
 }

@@ -27,7 +27,7 @@ impl Shape for Cuboid {
 
     fn surface(&self, point: DVec3, part: u32) -> (DVec3, DVec3) {
         let axis = (part / 2) as usize;
-        let side = if part % 2 == 0 { -1.0 } else { 1.0 };
+        let side = if part.is_multiple_of(2) { -1.0 } else { 1.0 };
         let mut snapped = point.clamp(DVec3::splat(-INSET), DVec3::splat(INSET));
         let mut normal = DVec3::ZERO;
         snapped[axis] = side;
@@ -108,7 +108,7 @@ mod tests {
         for (part, (x, y, z)) in corners.into_iter().enumerate() {
             assert_eq!(Cuboid.uv(DVec3::new(x, y, z), part as u32), DVec2::ZERO, "face {part}");
             let mut p = DVec3::splat(0.5);
-            p[part / 2] = if part % 2 == 0 { -1.0 } else { 1.0 };
+            p[part / 2] = if part.is_multiple_of(2) { -1.0 } else { 1.0 };
             let (_, n) = Cuboid.surface(p, part as u32);
             let step = |d: DVec3| Cuboid.uv(p + d * 0.5, part as u32) - Cuboid.uv(p, part as u32);
             let up = if part / 2 == 1 { DVec3::Z * -n.y } else { DVec3::Y };

@@ -102,3 +102,73 @@ impl Shape for Cylinder {
         11.0 * f64::EPSILON
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{Known, Random};
+    use super::*;
+
+    const CLOSED: Known<'_> =
+        Known { shape: &Cylinder { open: false }, levels: &[&side, &|p| -1.0 - p.y, &|p| p.y - 1.0] };
+    const OPEN: Known<'_> = Known { shape: &Cylinder { open: true }, levels: &[&side] };
+
+    fn side(p: DVec3) -> f64 {
+        (p.x * p.x + p.z * p.z).sqrt() - 1.0
+    }
+
+    fn depth(p: DVec3) -> f64 {
+        side(p).max(p.y.abs() - 1.0)
+    }
+
+    #[test]
+    fn closed_keeps_the_laws() {
+        CLOSED.hits_obey_the_equation();
+        CLOSED.crossings_match_sampling(&depth, true, |_| true);
+        CLOSED.leaves_and_enters_once(true);
+        CLOSED.far_rays_are_precise(true);
+    }
+
+    #[test]
+    fn open_keeps_the_laws() {
+        OPEN.hits_obey_the_equation();
+        OPEN.crossings_match_sampling(&side, false, |p| p.y.abs() < 1.0);
+    }
+
+    #[test]
+    fn rims_have_no_gap() {
+        let ring = [(1., 0.), (0., 1.), (-1., 0.), (0., -1.), (0.6, 0.8), (-0.8, 0.6), (0.28, -0.96)];
+        let rim: Vec<_> = ring.iter().flat_map(|&(x, z)| [DVec3::new(x, 1.0, z), DVec3::new(x, -1.0, z)]).collect();
+        CLOSED.rims_have_no_gap(&rim);
+    }
+
+    #[test]
+    fn is_hit_from_afar_where_pythagoras_says() {
+        let mut random = Random(12);
+        for _ in 0..10_000 {
+            let (distance, height) = (random.power(1.0, 8.0), random.between(-0.999, 0.999));
+            let ray = Ray { origin: DVec3::new(-distance, -distance, height), direction: DVec3::new(1.0, 1.0, 0.0) };
+            let hit = Cylinder { open: false }.intersect(&ray, f64::INFINITY).expect("aimed at the inside");
+            assert!((hit.t - (distance - (1.0 - height * height).sqrt())).abs() < 4e-16 * distance, "{ray:?}: {hit:?}");
+        }
+    }
+
+    #[test]
+    fn along_the_axis() {
+        let down = |x: f64, y: f64| Ray { origin: DVec3::new(x, y, 0.0), direction: DVec3::new(0.0, -2.0, 0.0) };
+        let closed = |x, y| Cylinder { open: false }.intersect(&down(x, y), 100.0);
+        assert_eq!(closed(0.5, 3.0), Some(Crossing { t: 1.0, part: 2 }));
+        assert_eq!(closed(-0.999, 0.0), Some(Crossing { t: 0.5, part: 1 }));
+        assert_eq!(closed(1.0, 3.0), None, "in the side");
+        assert_eq!(closed(0.0, -1.0), None, "starts on the cap");
+        assert_eq!(Cylinder { open: true }.intersect(&down(0.5, 3.0), 100.0), None);
+    }
+
+    #[test]
+    fn texture_coordinates() {
+        let at = |x, y, z, part| Cylinder { open: false }.uv(DVec3::new(x, y, z), part);
+        assert_eq!(at(1.0, -1.0, 0.0, 0), DVec2::new(0.5, 0.0));
+        assert_eq!(at(0.0, 0.5, -1.0, 0), DVec2::new(0.25, 0.75));
+        assert_eq!(at(-1.0, 1.0, 0.0, 2), DVec2::new(0.0, 0.5));
+        assert_eq!(at(0.0, -1.0, 1.0, 1), DVec2::new(0.5, 1.0));
+    }
+}

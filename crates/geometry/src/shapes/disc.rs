@@ -43,3 +43,38 @@ impl Shape for Disc {
         0.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::Known;
+    use super::*;
+
+    #[test]
+    fn keeps_the_laws() {
+        for inner_radius in [0.0, 0.5, 0.9] {
+            let known = Known { shape: &Disc { inner_radius }, levels: &[&|p| p.y] };
+            known.hits_obey_the_equation();
+            known.crossings_match_sampling(&|p| p.y, false, |p| {
+                let r = (p.x * p.x + p.z * p.z).sqrt();
+                r < 1.0 && r >= inner_radius
+            });
+            known.leaves_and_enters_once(false);
+        }
+    }
+
+    #[test]
+    fn the_edges_belong_to_it() {
+        let down = |x, inner_radius| {
+            let ray = Ray { origin: DVec3::new(x, 1.0, 0.0), direction: DVec3::NEG_Y };
+            Disc { inner_radius }.intersect(&ray, 100.0).map(|hit| hit.t)
+        };
+        assert_eq!((down(1.0, 0.5), down(0.5, 0.5), down(0.0, 0.0)), (Some(1.0), Some(1.0), Some(1.0)));
+        assert_eq!((down(1.000_001, 0.5), down(0.499_999, 0.5)), (None, None));
+    }
+
+    #[test]
+    fn texture_coordinates_span_the_square_around_it() {
+        let at = |x, z| Disc { inner_radius: 0.25 }.uv(DVec3::new(x, 0.0, z), 0);
+        assert_eq!((at(-1.0, 0.0), at(0.0, 1.0)), (DVec2::new(0.0, 0.5), DVec2::new(0.5, 1.0)));
+    }
+}

@@ -44,3 +44,30 @@ impl Shape for Plane {
         0.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::Known;
+    use super::*;
+
+    #[test]
+    fn keeps_the_laws() {
+        let known = Known { shape: &Plane, levels: &[&|p| p.y] };
+        known.hits_obey_the_equation();
+        known.crossings_match_sampling(&|p| p.y, true, |_| true);
+        known.leaves_and_enters_once(false);
+    }
+
+    #[test]
+    fn parallel_rays_miss() {
+        for y in [0.0, -0.0, 1e-300, 1.0, -1.0] {
+            let ray = Ray { origin: DVec3::new(0.0, y, 0.0), direction: DVec3::new(1.0, 0.0, -1.0) };
+            assert_eq!(Plane.intersect(&ray, f64::INFINITY), None);
+        }
+    }
+
+    #[test]
+    fn texture_coordinates_are_those_of_the_point() {
+        assert_eq!(Plane.uv(DVec3::new(3.5, 0.0, -2.0), 0), DVec2::new(3.5, -2.0));
+    }
+}

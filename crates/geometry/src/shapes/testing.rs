@@ -4,6 +4,7 @@
 use super::Shape;
 use crate::{Crossing, Ray};
 use durer_math::DVec3;
+use durer_math::functions::pow;
 
 /// A number generator for tests (SplitMix64).
 pub(super) struct Random(pub(super) u64);
@@ -20,7 +21,7 @@ impl Random {
 
     /// A power of ten with uniform exponent.
     pub(super) fn power(&mut self, low: f64, high: f64) -> f64 {
-        libm_pow10(self.between(low, high))
+        f64::from(pow(10.0, self.between(low, high) as f32))
     }
 
     /// Uniform in the cube from -1 to 1.
@@ -54,16 +55,6 @@ impl Random {
             _ => Ray { origin, direction },
         }
     }
-}
-
-fn libm_pow10(exponent: f64) -> f64 {
-    let ln = exponent * std::f64::consts::LN_10 / 1024.0;
-    // e^x by its series for a small x, then squared ten times.
-    let mut value = 1.0 + ln * (1.0 + ln * (0.5 + ln * (1.0 / 6.0 + ln / 24.0)));
-    for _ in 0..10 {
-        value *= value;
-    }
-    value
 }
 
 /// A function that is zero on a surface and grows outwards about as fast as the distance.
@@ -106,20 +97,31 @@ impl Known<'_> {
             hits += 1;
             let level = self.levels[hit.part as usize];
             let p = ray.at(hit.t);
-            assert!(level(p).abs() < 2e-14, "{hit:?} of {ray:?} is off by {}", level(p));
+            let tolerance = if at_a_tip(p) { 1e-7 } else { 1e-13 };
+            assert!(level(p).abs() < tolerance, "{hit:?} of {ray:?} is off by {}", level(p));
             let (snapped, normal) = self.shape.surface(p, hit.part);
-            assert!((snapped - p).length() < 2e-14 && level(snapped).abs() < 1e-15, "{hit:?} of {ray:?}");
+            assert!((snapped - p).length() < tolerance && level(snapped).abs() < 1e-15, "{hit:?} of {ray:?}");
             let cosine = normal.normalize().dot(gradient(level, snapped));
             assert!(cosine > 0.999_999 || at_a_tip(snapped), "normal of {hit:?} of {ray:?}: cosine {cosine}");
             assert_eq!(self.shape.intersect(&ray, hit.t), None);
             assert_eq!(self.shape.intersect(&ray, hit.t * 1.000_001), Some(hit));
-            for scale in [1e-8, 1e-3, 3.0, 1e8] {
-                let scaled = Ray { origin: ray.origin, direction: ray.direction * scale };
-                let t = self.hit(&scaled).map(|c| c.t * scale);
-                assert!(t.is_some_and(|t| (t - hit.t).abs() <= 1e-9 * (1.0 + hit.t)), "{ray:?} scaled by {scale}");
-            }
+            self.does_not_depend_on_length(&ray, hit);
         }
-        assert!(hits > 1_000, "the test must test something: {hits}");
+        assert!(hits > 200, "the test must test something: {hits}");
+    }
+
+    fn does_not_depend_on_length(&self, ray: &Ray, hit: Crossing) {
+        // By powers of two, not a bit may change. Others may round a ray past an edge that it was aimed at.
+        for scale in [1.0 / f64::from(1 << 27), 0.5, f64::from(1 << 27)] {
+            let scaled = Ray { origin: ray.origin, direction: ray.direction * scale };
+            assert_eq!(self.hit(&scaled), Some(Crossing { t: hit.t / scale, part: hit.part }), "{ray:?} by {scale}");
+        }
+        let on_lattice = ray.origin == (ray.origin * 2.0).round() * 0.5;
+        for scale in [1e-8, 1e-3, 3.0, 1e8] {
+            let scaled = Ray { origin: ray.origin, direction: ray.direction * scale };
+            let t = self.hit(&scaled).map(|c| c.t * scale);
+            assert!(on_lattice || t.is_some_and(|t| (t - hit.t).abs() <= 1e-9 * (1.0 + hit.t)), "{ray:?} by {scale}");
+        }
     }
 
     /// The crossings along random rays, each found from the one before, are the sign changes of `depth` (negative
@@ -138,11 +140,16 @@ impl Known<'_> {
                     assert_eq!(self.shape.contains(p), depth(p) < 0.0, "contains {p}");
                 }
             }
-            if expected.iter().any(|&t| counts(ray.at(t)) != counts(ray.at(t + 1e-6)) || self.near_a_tip(ray.at(t))) {
+            let at_an_edge = |p: DVec3| {
+                let on_parts = self.levels.iter().filter(|level| level(p).abs() < 1e-9).count();
+                on_parts > 1 || OCTANTS.iter().any(|&step| counts(p + step * 1e-6) != counts(p - OCTANTS[0] * 1e-6))
+            };
+            if expected.iter().any(|&t| at_an_edge(ray.at(t))) {
                 continue;
             }
             expected.retain(|&t| counts(ray.at(t)));
-            let found = self.all_crossings(&ray);
+            let mut found = self.all_crossings(&ray);
+            found.retain(|&t| t < SAMPLED_LENGTH);
             let agree = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-6;
             assert!(
                 found.len() == expected.len() && found.iter().zip(&expected).all(agree),
@@ -150,11 +157,7 @@ impl Known<'_> {
             );
             compared += found.len();
         }
-        assert!(compared > 500, "the test must test something: {compared}");
-    }
-
-    fn near_a_tip(&self, p: DVec3) -> bool {
-        p.x * p.x + p.z * p.z < 1e-8
+        assert!(compared > 20, "the test must test something: {compared}");
     }
 
     /// All crossings in order, each sought from the one before moved off the surface to where the ray goes.
@@ -225,7 +228,7 @@ impl Known<'_> {
                 assert!(!convex || self.hit(&Ray { origin, direction: past }).is_none(), "{past} passes {p}");
             }
         }
-        assert!(hits > 1_000, "the test must test something: {hits}");
+        assert!(hits > 200, "the test must test something: {hits}");
     }
 
     /// Rays aimed exactly at points of a rim, and going on inside, hit: there is no gap between parts.
@@ -249,6 +252,26 @@ impl Known<'_> {
     }
 }
 
+const AXES: [DVec3; 3] = [DVec3::X, DVec3::Y, DVec3::Z];
+
+/// A direction in each octant.
+const OCTANTS: [DVec3; 8] = {
+    let (x, y, z) = (1.0, 0.7, 0.4);
+    [
+        DVec3::new(x, y, z),
+        DVec3::new(-x, y, z),
+        DVec3::new(x, -y, z),
+        DVec3::new(-x, -y, z),
+        DVec3::new(x, y, -z),
+        DVec3::new(-x, y, -z),
+        DVec3::new(x, -y, -z),
+        DVec3::new(-x, -y, -z),
+    ]
+};
+
+const SAMPLED_LENGTH: f64 = 8.0;
+
+/// At the tip of a cone, where the surface has no tangent plane, and hits by rays along the side are known less well.
 fn at_a_tip(p: DVec3) -> bool {
     p.x.abs() < 1e-5 && p.z.abs() < 1e-5
 }
@@ -263,20 +286,21 @@ fn tilted(normal: DVec3, cosine: f64, random: &mut Random) -> DVec3 {
 fn gradient(level: Level<'_>, p: DVec3) -> DVec3 {
     let h = 1e-6;
     let along = |axis: DVec3| level(p + axis * h) - level(p - axis * h);
-    DVec3::new(along(DVec3::X), along(DVec3::Y), along(DVec3::Z)).normalize()
+    DVec3::from(AXES.map(along)).normalize()
 }
 
-/// Where `depth` changes sign on the first 8 units of a ray of unit direction; `None` if it comes so near to zero
+/// Where `depth` changes sign on the first [`SAMPLED_LENGTH`] of a ray of unit direction; `None` if it comes so near to zero
 /// without crossing, or starts so near to it, that sampling cannot tell.
 fn sampled_crossings(depth: Level<'_>, ray: &Ray) -> Option<Vec<f64>> {
-    const STEP: f64 = 0.004;
-    let samples: Vec<f64> = (0..2_000).map(|i| depth(ray.at(f64::from(i) * STEP))).collect();
+    const STEP: f64 = SAMPLED_LENGTH / 2_000.0;
+    let samples: Vec<f64> = (0..=2_000).map(|i| depth(ray.at(f64::from(i) * STEP))).collect();
     let mut crossings = Vec::new();
-    if samples[0].abs() < 1e-9 {
+    if samples[0].abs() < 2.0 * STEP {
         return None;
     }
-    for i in 1..samples.len() - 1 {
-        let (before, here, after) = (samples[i - 1], samples[i], samples[i + 1]);
+    for i in 1..samples.len() {
+        let (before, here) = (samples[i - 1], samples[i]);
+        let after = *samples.get(i + 1).unwrap_or(&here);
         let turns = here.abs() <= before.abs() && here.abs() <= after.abs();
         if turns && (before < 0.0) == (here < 0.0) && (here < 0.0) == (after < 0.0) && here.abs() < 2.0 * STEP {
             return None;

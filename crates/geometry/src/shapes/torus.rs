@@ -47,7 +47,7 @@ impl Line {
 
     /// Where (|p|² + 1 - r²)² - 4 ρ², the product of g and a positive factor, turns: the roots in ascending order of
     /// a quarter of its derivative, s³ + p s + q. With three roots the middle one is a maximum, the others are minima;
-    /// a single one is a minimum. Those further out than `reach` may be missing, but for the minimum if there is one.
+    /// a single one is a minimum, given as `reach` or -`reach` if further out.
     #[inline]
     fn turns(&self, reach: f64) -> Turns {
         let k = self.nearest.length_squared() + 1.0 - self.tube_radius * self.tube_radius;
@@ -56,27 +56,62 @@ impl Line {
         cubic_roots(p, q, reach)
     }
 
-    /// The root of g between `low` and `high`, where its signs differ: Newton's method, halving the bracket whenever a
-    /// step would leave it or does not shrink fast enough.
-    fn root(&self, mut low: f64, mut high: f64) -> f64 {
-        let low_inside = self.is_inside(low);
-        let mut s = 0.5 * (low + high);
+    /// The first piece of the line in which it goes in, from `start` outside.
+    #[inline]
+    fn way_in(&self, start: f64, reach: f64) -> Option<Piece> {
+        let dips = |outside: f64, minimum: f64| {
+            (minimum > outside && self.is_inside(minimum)).then_some(Piece { outside, inside: minimum })
+        };
+        match self.turns(reach) {
+            Turns::One { minimum } => dips(start, minimum),
+            Turns::Three { minima: [first, second], maximum } => {
+                dips(start, first).or_else(|| dips(start.max(maximum), second))
+            }
+        }
+    }
+
+    /// The first piece of the line in which it goes out, from `start` inside.
+    #[inline]
+    fn way_out(&self, start: f64, reach: f64) -> Piece {
+        match self.turns(reach) {
+            Turns::Three { maximum, .. } if maximum > start && !self.is_inside(maximum) => {
+                Piece { outside: maximum, inside: start }
+            }
+            Turns::Three { maximum, .. } => Piece { outside: reach, inside: start.max(maximum) },
+            Turns::One { .. } => Piece { outside: reach, inside: start },
+        }
+    }
+
+    /// The only crossing in a piece: Newton's method on g, halving the piece whenever a step would leave it. It starts
+    /// where a parabola through both ends, with its vertex at the inner end, is zero.
+    fn crossing(&self, piece: Piece) -> f64 {
+        let Piece { mut outside, mut inside } = piece;
+        let (g_inside, g_outside) = (self.value_and_slope(inside).0, self.value_and_slope(outside).0);
+        let share = (g_inside / (g_inside - g_outside)).max(0.0).sqrt();
+        let mut s = inside + (outside - inside) * if share <= 1.0 { share } else { 0.5 };
         for _ in 0..100 {
             let (g, slope) = self.value_and_slope(s);
-            if (g < 0.0) == low_inside {
-                low = s;
+            if g < 0.0 {
+                inside = s;
             } else {
-                high = s;
+                outside = s;
             }
             let newton = s - g / slope;
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if (next - s).abs() <= f64::EPSILON || high - low <= f64::EPSILON {
-                return next;
+            if (newton - s).abs() <= 2.0 * f64::EPSILON || (outside - inside).abs() <= 2.0 * f64::EPSILON {
+                break;
             }
-            s = next;
+            let between = (newton < inside) != (newton < outside);
+            s = if between { newton } else { 0.5 * (inside + outside) };
         }
         s
     }
+}
+
+/// A piece of the line, from a place outside the tube to one inside, in either order, with one crossing in between.
+#[derive(Clone, Copy)]
+struct Piece {
+    outside: f64,
+    inside: f64,
 }
 
 /// g at a point at distance `rho` from the axis: below 0 inside the tube.
@@ -131,28 +166,6 @@ fn newton_from_beyond(p: f64, q: f64, start: f64) -> f64 {
     s
 }
 
-impl Torus {
-    /// The first piece of the line, from `start` on, over which the ray goes in or out.
-    #[inline]
-    fn first_bracket(&self, line: &Line, start: f64, starts_inside: bool, reach: f64) -> Option<(f64, f64)> {
-        let turns = line.turns(reach);
-        if starts_inside {
-            return match turns {
-                Turns::Three { maximum, .. } if maximum > start && !line.is_inside(maximum) => Some((start, maximum)),
-                Turns::Three { maximum, .. } => Some((start.max(maximum), reach)),
-                Turns::One { .. } => Some((start, reach)),
-            };
-        }
-        let dips = |from: f64, minimum: f64| (minimum > from && line.is_inside(minimum)).then_some((from, minimum));
-        match turns {
-            Turns::One { minimum } => dips(start, minimum),
-            Turns::Three { minima: [first, second], maximum } => {
-                dips(start, first).or_else(|| dips(start.max(maximum), second))
-            }
-        }
-    }
-}
-
 impl Shape for Torus {
     fn bounds(&self) -> Bounds {
         let reach = 1.0 + self.tube_radius;
@@ -170,8 +183,7 @@ impl Shape for Torus {
         let to_nearest = -o.dot(d) / d2;
         let nearest = o + d * to_nearest;
         let reach = (1.0 + r) * (1.0 + 1e-9);
-        let nearest2 = nearest.length_squared();
-        if nearest2 > reach * reach {
+        if nearest.length_squared() > reach * reach {
             return None;
         }
         let length = d2.sqrt();
@@ -181,9 +193,13 @@ impl Shape for Torus {
         }
         let line = Line { nearest, unit: d / length, tube_radius: r };
         let rho = (o.x * o.x + o.z * o.z).sqrt();
-        let starts_inside = origin_s > -reach && inside_by(o, rho, r) < 0.0;
-        let (low, high) = self.first_bracket(&line, origin_s.max(-reach), starts_inside, reach)?;
-        let t = (line.root(low, high) - origin_s) / length;
+        let start = origin_s.max(-reach);
+        let piece = if origin_s > -reach && inside_by(o, rho, r) < 0.0 {
+            line.way_out(start, reach)
+        } else {
+            line.way_in(start, reach)?
+        };
+        let t = (line.crossing(piece) - origin_s) / length;
         (t > 0.0 && t < t_max).then_some(Crossing { t, part: 0 })
     }
 
@@ -209,5 +225,79 @@ impl Shape for Torus {
     /// 2 u of distance, and a point is put on the tube to 4 u. Twice their sum.
     fn rounding(&self) -> f64 {
         18.0 * f64::EPSILON
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{Known, Random};
+    use super::*;
+
+    fn depth(p: DVec3, r: f64) -> f64 {
+        let rho = (p.x * p.x + p.z * p.z).sqrt();
+        ((rho - 1.0) * (rho - 1.0) + p.y * p.y).sqrt() - r
+    }
+
+    #[test]
+    fn keeps_the_laws() {
+        for r in [0.1, 0.25, 0.5, 0.9] {
+            let level = |p: DVec3| depth(p, r);
+            let known = Known { shape: &Torus { tube_radius: r }, levels: &[&level] };
+            known.hits_obey_the_equation();
+            known.crossings_match_sampling(&level, true, |_| true);
+            known.far_rays_are_precise(false);
+        }
+    }
+
+    /// Rays that leave outwards from the half that is curved outwards in every direction do not come back to it;
+    /// wherever they start, what they meet first is met from outside. Rays that go in come out.
+    #[test]
+    fn leaves_and_enters_once_even_if_thin() {
+        let mut random = Random(13);
+        for r in [1e-6, 1e-3, 0.1, 0.5, 0.999] {
+            let torus = Torus { tube_radius: r };
+            let offset = torus.rounding() * 1.01;
+            for _ in 0..20_000 {
+                let ring = random.direction() * DVec3::new(1.0, 0.0, 1.0);
+                let tube = random.direction();
+                let center = ring.normalize();
+                let across = center * tube.x.abs() + DVec3::Y * tube.y;
+                let (p, n) = torus.surface(center + across.normalize() * r, 0);
+                let v = random.direction();
+                let cosine = random.power(-9.0, 0.0);
+                let out = n * cosine + (v - n * v.dot(n)).normalize() * (1.0 - cosine * cosine).sqrt();
+                let back = torus.intersect(&Ray { origin: p + n * offset, direction: out }, f64::INFINITY);
+                assert_eq!(back, None, "r = {r}: left at {p} along {out} (cosine {cosine})");
+                let inward = Ray { origin: p - n * offset, direction: -out };
+                let exit = torus.intersect(&inward, f64::INFINITY).expect("what is inside comes out");
+                let q = inward.at(exit.t);
+                let (_, m) = torus.surface(q, 0);
+                assert!(depth(q, r).abs() < torus.rounding(), "r = {r}: {inward:?} comes out at {q}");
+                assert!(m.dot(inward.direction) > -1e-7, "r = {r}: {inward:?} comes out at {q}");
+            }
+        }
+    }
+
+    #[test]
+    fn through_the_tube_and_the_hole() {
+        let torus = Torus { tube_radius: 0.25 };
+        let hit = |origin, direction| torus.intersect(&Ray { origin, direction }, f64::INFINITY).map(|hit| hit.t);
+        let near = |t: Option<f64>, expected: f64| t.is_some_and(|t| (t - expected).abs() < 1e-14);
+        let from_left = |x| hit(DVec3::new(x, 0.0, 0.0), DVec3::X);
+        assert!(near(from_left(-3.0), 1.75) && near(from_left(-1.0), 0.25));
+        assert!(near(from_left(0.0), 0.75) && near(from_left(1.0), 0.25));
+        assert_eq!(from_left(2.0), None);
+        assert_eq!(hit(DVec3::new(0.0, 5.0, 0.0), DVec3::NEG_Y), None, "down the hole");
+        assert!(near(hit(DVec3::new(0.6, 5.0, 0.8), DVec3::NEG_Y), 4.75));
+        assert_eq!(hit(DVec3::new(-3.0, 0.250_001, 0.0), DVec3::X), None, "just above");
+    }
+
+    #[test]
+    fn texture_coordinates() {
+        let at = |x, y, z| Torus { tube_radius: 0.25 }.uv(DVec3::new(x, y, z), 0);
+        assert_eq!(at(1.25, 0.0, 0.0), DVec2::new(0.5, 0.5));
+        assert_eq!(at(0.0, 0.25, -1.0), DVec2::new(0.25, 0.75));
+        assert_eq!(at(0.0, -0.25, 1.0), DVec2::new(0.75, 0.25));
+        assert_eq!(at(0.75, 0.0, 0.0), DVec2::new(0.5, 1.0));
     }
 }

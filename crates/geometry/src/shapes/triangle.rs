@@ -98,3 +98,101 @@ impl Shape for Triangle {
         8.0 * f64::EPSILON * (size + edge2.sqrt() * slenderness)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{Known, Random};
+    use super::*;
+
+    fn of(vertices: [DVec3; 3]) -> Triangle {
+        Triangle { vertices, uvs: [DVec2::new(1.0, 2.0), DVec2::new(3.0, 2.0), DVec2::new(1.0, 6.0)] }
+    }
+
+    #[test]
+    fn keeps_the_laws() {
+        for vertices in [
+            [DVec3::new(-1.0, 0.0, -1.0), DVec3::new(0.01, 0.27, 0.97), DVec3::new(1.0, 0.0, -0.5)],
+            [DVec3::ZERO, DVec3::X * 0.97, DVec3::Y * 0.93],
+            [DVec3::new(0.9, -0.9, 0.9), DVec3::new(-0.8, 0.9, 1.0), DVec3::new(0.1, 0.2, -1.0)],
+        ] {
+            let [a, b, c] = vertices;
+            let n = (b - a).cross(c - a).normalize();
+            let level = |p: DVec3| (p - a).dot(n);
+            let within = |p: DVec3| {
+                let right_of = |from: DVec3, to: DVec3| (to - from).cross(p - from).dot(n) > 0.0;
+                right_of(a, b) && right_of(b, c) && right_of(c, a)
+            };
+            let known = Known { shape: &of(vertices), levels: &[&level] };
+            known.hits_obey_the_equation();
+            known.crossings_match_sampling(&level, false, within);
+            known.leaves_and_enters_once(false);
+        }
+    }
+
+    #[test]
+    fn no_ray_passes_between_neighbors() {
+        let mut random = Random(14);
+        for i in 0..100_000 {
+            let scale = random.power(-3.0, 3.0);
+            let shift = random.in_cube() * if i % 2 == 0 { 0.0 } else { 1e3 };
+            let mut corner = || random.in_cube() * scale + shift;
+            let (a, b, c) = (corner(), corner(), corner());
+            let origin = corner();
+            let on_edge = a + (b - a) * random.between(0.01, 0.99);
+            // Across the edge from c, wherever off the plane.
+            let d = on_edge + (on_edge - c) * random.between(0.1, 1.0) + random.in_cube() * (0.01 * scale);
+            let ray = Ray { origin, direction: on_edge - origin };
+            let hits = [[a, b, c], [b, a, d]].map(|v| of(v).intersect(&ray, f64::INFINITY).is_some());
+            // Seen from the side, both may lie on the same side of the edge; then the ray passes by on the other.
+            let view = (b - a).cross(ray.direction);
+            if view.dot(c - a) * view.dot(d - a) < 0.0 {
+                assert!(hits[0] || hits[1], "{ray:?} passes between {c} and {d} through the edge from {a} to {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn slivers_far_away_do_not_hit_themselves() {
+        let mut random = Random(15);
+        let mut tried = 0;
+        for _ in 0..20_000 {
+            let thin = random.power(-6.0, 0.0);
+            let shift = random.in_cube() * random.power(-2.0, 4.0);
+            let (a, ab) = (random.in_cube() + shift, random.direction());
+            let triangle = of([a, a + ab, a + ab * random.between(0.0, 1.0) + random.direction() * thin]);
+            let [a, b, c] = triangle.vertices;
+            let (v, w) = (random.between(0.0, 1.0), random.between(0.0, 1.0));
+            let inside = a + (b - a) * (v * (1.0 - w)) + (c - a) * w;
+            let (p, n) = triangle.surface(inside, 0);
+            let n = n.normalize();
+            for cosine in [random.power(-9.0, 0.0), random.between(0.0, 1.0)] {
+                let u = random.direction();
+                let out = n * cosine + (u - n * u.dot(n)).normalize() * (1.0 - cosine * cosine).sqrt();
+                for side in [1.0, -1.0] {
+                    let ray = Ray { origin: p + n * (side * triangle.rounding()), direction: out * side };
+                    assert_eq!(triangle.intersect(&ray, f64::INFINITY), None, "{ray:?} left {triangle:?}");
+                    tried += 1;
+                }
+            }
+        }
+        assert!(tried > 1_000);
+    }
+
+    #[test]
+    fn degenerate_triangles_and_edge_on_rays_miss() {
+        let line = of([DVec3::ZERO, DVec3::X, DVec3::X * 2.0]);
+        let flat = of([DVec3::ZERO, DVec3::X, DVec3::Y]);
+        let down = Ray { origin: DVec3::new(0.5, 1.0, 0.0), direction: DVec3::NEG_Y };
+        assert_eq!(line.intersect(&down, f64::INFINITY), None);
+        assert_eq!(flat.intersect(&down, f64::INFINITY), None);
+        assert!(line.rounding().is_finite());
+    }
+
+    #[test]
+    fn texture_coordinates_follow_the_corners() {
+        let triangle = of([DVec3::ZERO, DVec3::X * 2.0, DVec3::Z * 2.0]);
+        assert_eq!(triangle.uv(DVec3::ZERO, 0), DVec2::new(1.0, 2.0));
+        assert_eq!(triangle.uv(DVec3::new(1.0, 0.0, 0.5), 0), DVec2::new(2.0, 3.0));
+        assert_eq!(triangle.surface(DVec3::new(1.0, 1e-9, 0.5), 0), (DVec3::new(1.0, 0.0, 0.5), DVec3::Y * -4.0));
+    }
+}

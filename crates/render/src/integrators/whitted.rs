@@ -41,7 +41,8 @@ impl<O: Observer> Path<'_, O> {
     /// Adds what arrives along a ray, times its weight.
     fn trace(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb) {
         self.observer.ray_begins(kind, depth, ray, weight);
-        let hit = self.scene.world.closest_hit(ray, f64::INFINITY, u32::MAX);
+        let vantage = if kind == RayKind::Eye { self.scene.eye_vantage.as_ref() } else { None };
+        let hit = self.scene.world.closest_hit(ray, f64::INFINITY, u32::MAX, vantage);
         let length = hit.map_or(f64::INFINITY, |hit| hit.crossing.t);
         let weight = self.along(length, weight);
         match hit {
@@ -81,8 +82,10 @@ impl<O: Observer> Path<'_, O> {
         }
         let given_back = weight * shading.color;
         self.add(Source::Ambient, given_back * self.scene.ambient * material.ambient);
+        // Lit points lie off the surface like the origins of all rays, so that shadow rays end exactly in the light.
+        let point = shading.origin_back();
         for (index, light) in self.scene.lights.iter().enumerate() {
-            let Some(arriving) = light.arriving(shading.surface.point) else {
+            let Some(arriving) = light.arriving(point) else {
                 let (cosine, visibility) = (0.0, Rgb::BLACK);
                 self.observer.light(&LightSeen { index, distance: None, cosine, visibility });
                 continue;
@@ -91,8 +94,8 @@ impl<O: Observer> Path<'_, O> {
             let mut visible = Rgb::BLACK;
             if cosine > 0.0 {
                 self.observer.shadow_ray();
-                let ray = shading.ray_back(arriving.direction);
-                visible = visibility(self.scene, &self.media, &ray, arriving.distance);
+                let ray = Ray { origin: point, direction: arriving.direction };
+                visible = visibility(self.scene, &self.media, &ray, arriving.distance, index);
             }
             let distance = Some(arriving.distance);
             self.observer.light(&LightSeen { index, distance, cosine, visibility: visible });
