@@ -21,7 +21,7 @@ enum Kind {
     Torus(Torus),
 }
 
-/// Calls a method of [`Shape`] on whatever shape it is.
+/// Evaluates an expression for whatever shape it is: a call of a method of [`Shape`] on whatever shape it is.
 macro_rules! each_kind {
     ($kind:expr, $shape:ident => $call:expr) => {
         match $kind {
@@ -166,28 +166,33 @@ impl Primitive {
     }
 
     /// The nearest crossing with 0 < t < `t_max`.
+    #[inline]
     pub fn intersect(&self, ray: &Ray, t_max: f64) -> Option<Crossing> {
-        let ray =
-            Ray { origin: self.to_shape(ray.origin), direction: self.shape_from_world * ray.direction };
-        each_kind!(&self.kind, shape => shape.intersect(&ray, t_max))
+        // Mapped in each arm anew, so that the compiler drops the coordinates that a flat shape does not look at.
+        each_kind!(&self.kind, shape => shape.intersect(&self.ray_to_shape(ray), t_max))
     }
 
     /// The surface at a crossing of `ray`.
+    #[inline]
     pub fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
-        let near = self.to_shape(ray.at(crossing.t));
-        let (snapped, normal) = each_kind!(&self.kind, shape => shape.surface(near, crossing.part));
-        let rounding = each_kind!(&self.kind, shape => shape.rounding());
+        let near = ray.at(crossing.t);
+        each_kind!(&self.kind, shape => self.surface_of(shape, near, crossing.part))
+    }
+
+    #[inline(always)]
+    fn surface_of(&self, shape: &impl Shape, near: DVec3, part: u32) -> Surface {
+        let (snapped, normal) = shape.surface(self.to_shape(near), part);
         let point = self.origin + self.world_from_shape * snapped;
-        // Normals map by the inverse transpose; `normal` need not have unit length.
+        // Normals map by the inverse transpose.
         let outward = self.shape_from_world.transpose() * normal;
-        let stretch = outward.length();
+        let per_stretch = 1.0 / outward.length();
         // How far the point may seem to be from the surface when a new ray's origin is mapped back to the canonical
         // space: the shape's own rounding, and that of the two maps (a few operations of half an ulp each).
         let [world_norm, shape_norm] = self.norms;
         let reach = world_norm * largest(snapped) + largest(point) + largest(self.origin);
-        let doubt = rounding + 16.0 * f64::EPSILON * shape_norm * reach;
-        // Stepping along the world's unit normal by s moves by s · stretch / |normal| along the canonical one.
-        Surface { point, normal: outward * (1.0 / stretch), offset: 4.0 * doubt * normal.length() / stretch }
+        let doubt = shape.rounding() + 16.0 * f64::EPSILON * shape_norm * reach;
+        // A step of s along the world's unit normal is one of s · stretch along the canonical one.
+        Surface { point, normal: outward * per_stretch, offset: 4.0 * doubt * per_stretch }
     }
 
     /// Texture coordinates at a point of the surface.
@@ -202,7 +207,13 @@ impl Primitive {
         each_kind!(&self.kind, shape => shape.contains(point))
     }
 
+    #[inline(always)]
+    fn ray_to_shape(&self, ray: &Ray) -> Ray {
+        Ray { origin: self.to_shape(ray.origin), direction: self.shape_from_world * ray.direction }
+    }
+
     /// Subtracting first keeps small things far from the origin sharp.
+    #[inline(always)]
     fn to_shape(&self, point: DVec3) -> DVec3 {
         self.shape_from_world * (point - self.origin)
     }

@@ -32,14 +32,14 @@ pub(crate) trait Shape {
     /// leave no gap: closed shapes intersect spans, not parts one by one.
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<Crossing>;
 
-    /// Puts a point that is on `part` but for rounding back on it, as near as numbers allow, and gives the outward
-    /// normal there (of any length but zero).
+    /// Puts a point that is on `part` but for rounding back on it, as near as numbers allow, and gives the outward unit
+    /// normal there.
     fn surface(&self, point: DVec3, part: u32) -> (DVec3, DVec3);
 
     /// Texture coordinates of a point on `part`.
     fn uv(&self, point: DVec3, part: u32) -> DVec2;
 
-    /// True for a point inside; always false for a shape that is not closed.
+    /// True for a point inside; always false for a shape without an inside.
     fn contains(&self, point: DVec3) -> bool;
 
     /// How far from the surface, along its normal, [`Shape::intersect`] may see a point that [`Shape::surface`] gave.

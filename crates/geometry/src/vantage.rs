@@ -7,17 +7,23 @@
 use crate::Bounds;
 use durer_math::DVec3;
 
-/// Cells along an edge of the cube: a cell is about a degree wide.
-const CELLS: usize = 64;
+/// Cells along an edge of the cube: a cell is about three degrees wide.
+const CELLS: usize = 32;
+
+const CELL_COUNT: usize = 6 * CELLS * CELLS;
 
 /// With more bounded primitives than this the lists get long and the tree is the better way.
-pub(crate) const MOST_PRIMITIVES: usize = 1024;
+pub(crate) const MOST_BOUNDED: usize = 1024;
+
+/// With more planes than this preparing the lists would cost more than it saves.
+pub(crate) const MOST_PLANES: usize = 16;
 
 /// A cell that more primitives are seen through has no list; its rays go through the tree.
-const LONGEST_LIST: u32 = 12;
+const LONGEST_LIST: usize = 12;
 
-/// Projections are widened by this much of the cube's half edge, for the rounding of rays and of the division.
-const MARGIN: f64 = 1e-9;
+/// Projections are widened by this much of the cube's half edge, for the rounding of rays and of the
+/// look-up, which is in single precision.
+const MARGIN: f64 = 1e-6;
 
 /// A point, and the primitives seen from it in each direction.
 #[derive(Clone, Debug)]
@@ -27,54 +33,124 @@ pub struct Vantage {
     ids: Vec<u32>,
 }
 
+/// A primitive in a box.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Boxed {
+    pub(crate) id: u32,
+    pub(crate) bounds: Bounds,
+}
+
+/// An infinite plane. One can only hide another of the same mask, since a ray may ask for one mask only.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Flat {
+    pub(crate) id: u32,
+    pub(crate) mask: u32,
+    pub(crate) normal: DVec3,
+    pub(crate) point: DVec3,
+}
+
 impl Vantage {
-    /// What is seen of these boxes from a point; they are named by the ids given with them.
-    pub(crate) fn new(point: DVec3, boxes: &[(u32, Bounds)]) -> Vantage {
-        let mut counts = vec![0; 6 * CELLS * CELLS];
-        for (_, bounds) in boxes {
-            for_each_cell(point, bounds, |cell| counts[cell] += 1);
+    /// What is seen of these primitives from a point.
+    pub(crate) fn new(point: DVec3, boxed: &[Boxed], planes: &[Flat]) -> Vantage {
+        let mut seen: Vec<(u32, u32)> = Vec::new();
+        for thing in boxed {
+            for_each_cell(point, &thing.bounds, |cell| seen.push((cell as u32, thing.id)));
         }
-        let mut starts = Vec::with_capacity(counts.len() + 1);
-        let mut total = 0;
-        for count in counts {
-            starts.push(total);
-            total += count;
+        nearest_planes(point, planes, |cell, id| seen.push((cell as u32, id)));
+        // A counting sort by cell; what comes first stays first.
+        let mut starts = vec![0; CELL_COUNT + 1];
+        for &(cell, _) in &seen {
+            starts[cell as usize + 1] += 1;
         }
-        starts.push(total);
+        for cell in 0..CELL_COUNT {
+            starts[cell + 1] += starts[cell];
+        }
         let mut next = starts.clone();
-        let mut ids = vec![0; total as usize];
-        for (id, bounds) in boxes {
-            for_each_cell(point, bounds, |cell| {
-                ids[next[cell] as usize] = *id;
-                next[cell] += 1;
-            });
+        let mut ids = vec![0; seen.len()];
+        for (cell, id) in seen {
+            let place = &mut next[cell as usize];
+            ids[*place as usize] = id;
+            *place += 1;
         }
         Vantage { starts, ids }
     }
 
-    /// The primitives that a ray from the point in this direction can meet; `None` if they are too many to list.
+    /// The primitives that a ray from the point in this direction can meet first; `None` if they are too many to list.
     #[inline(always)]
     pub(crate) fn candidates(&self, direction: DVec3) -> Option<&[u32]> {
         let cell = cell_of(direction);
-        let (start, end) = (self.starts[cell], self.starts[cell + 1]);
-        if end - start > LONGEST_LIST { None } else { Some(&self.ids[start as usize..end as usize]) }
+        let list = &self.ids[self.starts[cell] as usize..self.starts[cell + 1] as usize];
+        (list.len() <= LONGEST_LIST).then_some(list)
     }
+}
+
+/// Calls `visit` for every cell and the planes that may be the nearest of their mask somewhere in it.
+///
+/// In a direction d a plane is at 1/t = -n·d / h, with h the height of the point above it: linear in d, so its greatest
+/// and least values on a cell are at the corners.
+fn nearest_planes(point: DVec3, planes: &[Flat], mut visit: impl FnMut(usize, u32)) {
+    let mut planes = planes.to_vec();
+    planes.sort_by_key(|plane| plane.mask);
+    for group in planes.chunk_by(|a, b| a.mask == b.mask) {
+        let nearness: Vec<DVec3> = group.iter().map(|p| p.normal / -p.normal.dot(point - p.point)).collect();
+        let mut greatest = vec![0.0; group.len()];
+        for cell in 0..CELL_COUNT {
+            let (face, row, column) = (cell / (CELLS * CELLS), cell / CELLS % CELLS, cell % CELLS);
+            // A plane that is nearer than this nowhere in the cell is hidden by another one.
+            let mut nearest = 0.0_f64;
+            for (nearness, greatest) in nearness.iter().zip(&mut greatest) {
+                let range = nearness_range(*nearness, face, row, column);
+                nearest = nearest.max(range.0);
+                *greatest = range.1;
+            }
+            for (plane, greatest) in group.iter().zip(&greatest) {
+                if *greatest >= nearest {
+                    visit(cell, plane.id);
+                }
+            }
+        }
+    }
+}
+
+/// The least and the greatest value of `nearness · d` over the directions d of a cell; infinite for a plane through the
+/// point, which neither hides nor is hidden.
+fn nearness_range(nearness: DVec3, face: usize, row: usize, column: usize) -> (f64, f64) {
+    if !nearness.is_finite() {
+        return (0.0, f64::INFINITY);
+    }
+    let n = nearness.to_array();
+    let axis = face / 2;
+    let [s, t] = other_axes(axis);
+    const HALF: f64 = 1.0 / CELLS as f64 + MARGIN;
+    let middle = |index: usize| (2 * index + 1) as f64 / CELLS as f64 - 1.0;
+    let ahead = if face % 2 == 1 { n[axis] } else { -n[axis] };
+    let at_middle = ahead + n[s] * middle(column) + n[t] * middle(row);
+    let reach = (n[s].abs() + n[t].abs()) * HALF;
+    (at_middle - reach, at_middle + reach)
+}
+
+/// The two axes that span a face across `axis`.
+fn other_axes(axis: usize) -> [usize; 2] {
+    [usize::from(axis == 0), if axis == 2 { 1 } else { 2 }]
 }
 
 /// The cell that a direction passes through. Faces come in the order -x, +x, -y, +y, -z, +z; on a face the other two
 /// coordinates count in their order.
 #[inline(always)]
 fn cell_of(d: DVec3) -> usize {
-    let a = d.abs();
-    let (axis, depth, s, t) = if a.x >= a.y && a.x >= a.z {
-        (0, d.x, d.y, d.z)
-    } else if a.y >= a.z {
-        (1, d.y, d.x, d.z)
+    // Single precision serves: its rounding is within the margin.
+    let (x, y, z) = (d.x as f32, d.y as f32, d.z as f32);
+    let (ax, ay, az) = (x.abs(), y.abs(), z.abs());
+    let (axis, depth, s, t) = if az >= ax && az >= ay {
+        (2, z, x, y)
+    } else if ay >= ax {
+        (1, y, x, z)
     } else {
-        (2, d.z, d.x, d.y)
+        (0, x, y, z)
     };
-    let scale = (CELLS / 2) as f64 / depth.abs();
-    let index = |x: f64| ((x * scale + (CELLS / 2) as f64) as usize).min(CELLS - 1);
+    const HALF: f32 = (CELLS / 2) as f32;
+    let scale = HALF / depth.abs();
+    let index = |along: f32| ((along * scale + HALF) as i32).clamp(0, CELLS as i32 - 1) as usize;
     let face = 2 * axis + usize::from(depth > 0.0);
     (face * CELLS + index(t)) * CELLS + index(s)
 }
@@ -90,7 +166,7 @@ fn for_each_cell(point: DVec3, bounds: &Bounds, mut visit: impl FnMut(usize)) {
             continue;
         }
         let near = near.max(0.0);
-        let [s, t] = [(axis == 0) as usize, if axis == 2 { 1 } else { 2 }];
+        let [s, t] = other_axes(axis);
         let (Some(columns), Some(rows)) = (cells(low[s], high[s], near, far), cells(low[t], high[t], near, far)) else {
             continue;
         };
@@ -120,24 +196,24 @@ fn cells(low: f64, high: f64, near: f64, far: f64) -> Option<std::ops::RangeIncl
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_ray_that_passes_through_a_box_finds_it_listed() {
-        let mut state = 1u64;
-        let mut random = |low: f64, high: f64| {
+    fn random_numbers(seed: u64) -> impl FnMut(f64, f64) -> f64 {
+        let mut state = seed;
+        move |low: f64, high: f64| {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             low + (high - low) * ((state >> 11) as f64 / (1u64 << 53) as f64)
-        };
-        for case in 0..2000 {
-            let point = DVec3::new(random(-9.0, 9.0), random(-9.0, 9.0), random(-9.0, 9.0));
-            let (a, b) = (
-                DVec3::new(random(-9.0, 9.0), random(-9.0, 9.0), random(-9.0, 9.0)),
-                DVec3::new(random(-9.0, 9.0), random(-9.0, 9.0), random(-9.0, 9.0)),
-            );
-            let mut bounds = Bounds::of_points([a, b]);
+        }
+    }
+
+    #[test]
+    fn a_ray_that_passes_through_a_box_finds_it_listed() {
+        let mut random = random_numbers(1);
+        for case in 0..1000 {
+            let mut place = || DVec3::new(random(-9.0, 9.0), random(-9.0, 9.0), random(-9.0, 9.0));
+            let (point, mut bounds) = (place(), Bounds::of_points([place(), place()]));
             if case % 3 == 0 {
                 bounds.max.y = bounds.min.y; // flat
             }
-            let vantage = Vantage::new(point, &[(7, bounds)]);
+            let vantage = Vantage::new(point, &[Boxed { id: 7, bounds }], &[]);
             for _ in 0..20 {
                 let inside = bounds.min + bounds.size() * DVec3::new(random(0., 1.), random(0., 1.), random(0., 1.));
                 assert_eq!(vantage.candidates((inside - point).normalize()), Some(&[7][..]), "{point} {bounds:?}");
@@ -148,7 +224,7 @@ mod tests {
     #[test]
     fn a_box_in_front_is_not_listed_behind() {
         let bounds = Bounds { min: DVec3::new(4.0, -1.0, -1.0), max: DVec3::new(6.0, 1.0, 1.0) };
-        let vantage = Vantage::new(DVec3::ZERO, &[(0, bounds)]);
+        let vantage = Vantage::new(DVec3::ZERO, &[Boxed { id: 0, bounds }], &[]);
         assert_eq!(vantage.candidates(DVec3::X).map(<[u32]>::len), Some(1));
         for away in [DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::new(1.0, 0.5, 0.0)] {
             assert_eq!(vantage.candidates(away).map(<[u32]>::len), Some(0));
@@ -158,7 +234,33 @@ mod tests {
     #[test]
     fn crowded_cells_give_no_list() {
         let bounds = Bounds { min: DVec3::new(4.0, -1.0, -1.0), max: DVec3::new(6.0, 1.0, 1.0) };
-        let vantage = Vantage::new(DVec3::ZERO, &[(0, bounds); 13]);
+        let vantage = Vantage::new(DVec3::ZERO, &[Boxed { id: 0, bounds }; 13], &[]);
         assert_eq!(vantage.candidates(DVec3::X), None);
+    }
+
+    #[test]
+    fn the_nearest_plane_of_each_mask_is_listed_and_most_others_are_not() {
+        let mut random = random_numbers(2);
+        let mut listed = 0;
+        for _ in 0..20 {
+            let mut place = || DVec3::new(random(-9.0, 9.0), random(-9.0, 9.0), random(-9.0, 9.0));
+            let point = place();
+            let plane = |id: u32| Flat { id, mask: 1 + id % 2, normal: place(), point: place() };
+            let planes: Vec<Flat> = (0..6).map(plane).collect();
+            let vantage = Vantage::new(point, &[], &planes);
+            for _ in 0..200 {
+                let direction = DVec3::new(random(-1., 1.), random(-1., 1.), random(-1., 1.)).normalize();
+                let t = |p: &Flat| -p.normal.dot(point - p.point) / p.normal.dot(direction);
+                let candidates = vantage.candidates(direction).unwrap();
+                listed += candidates.len();
+                for mask in [1, 2] {
+                    let hit = planes.iter().filter(|p| p.mask == mask && t(p) > 0.0);
+                    if let Some(nearest) = hit.min_by(|a, b| t(a).total_cmp(&t(b))) {
+                        assert!(candidates.contains(&nearest.id));
+                    }
+                }
+            }
+        }
+        assert!(listed < 20 * 200 * 5 / 2, "{listed} candidates where at most two are nearest");
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::bvh::{Bvh, build::build};
 use crate::simd::planes::Planes;
-use crate::vantage::{MOST_PRIMITIVES, Vantage};
+use crate::vantage::{Boxed, Flat, MOST_BOUNDED, MOST_PLANES, Vantage};
 use crate::{Bounds, Crossing, Primitive, Ray, Surface};
 use durer_math::{DVec2, DVec3};
 use fearless_simd::{Level, Simd, dispatch};
@@ -16,7 +16,6 @@ pub struct World {
     primitives: Vec<Primitive>,
     /// Infinite planes have no box; each ray is tested against all of them, four at a time.
     planes: Vec<Planes>,
-    plane_ids: Vec<u32>,
     bounded_ids: Vec<u32>,
     bvh: Bvh,
     bounds: Bounds,
@@ -46,11 +45,11 @@ impl World {
         let mut planes = vec![Planes::EMPTY; plane_ids.len().div_ceil(4)];
         for (i, &id) in plane_ids.iter().enumerate() {
             if let Some([normal, point]) = primitives[id as usize].as_plane() {
-                planes[i / 4].set(i % 4, normal, point);
+                planes[i / 4].set(i % 4, id, normal, point);
             }
         }
         let bounds = boxes.iter().copied().fold(Bounds::EMPTY, Bounds::union);
-        World { bvh: build(&boxes), planes, plane_ids, bounded_ids, bounds, level, primitives }
+        World { bvh: build(&boxes), planes, bounded_ids, bounds, level, primitives }
     }
 
     /// The primitives, in the order they were given.
@@ -67,82 +66,118 @@ impl World {
     pub fn memory(&self) -> usize {
         size_of_val(self.primitives.as_slice())
             + size_of_val(self.planes.as_slice())
-            + size_of_val(self.plane_ids.as_slice())
             + size_of_val(self.bounded_ids.as_slice())
             + self.bvh.memory()
     }
 
     /// Prepares for many rays through one point; `None` if that would not pay.
     pub fn vantage(&self, point: DVec3) -> Option<Vantage> {
-        let boxes = || self.bounded_ids.iter().map(|&id| (id, self.primitives[id as usize].bounds())).collect::<Vec<_>>();
-        (self.bounded_ids.len() <= MOST_PRIMITIVES).then(|| Vantage::new(point, &boxes()))
+        let plane_count = self.primitives.len() - self.bounded_ids.len();
+        if self.bounded_ids.len() > MOST_BOUNDED || plane_count > MOST_PLANES {
+            return None;
+        }
+        let bounded = self.bounded_ids.iter().map(|&id| (id, &self.primitives[id as usize]));
+        let boxed: Vec<Boxed> = bounded.map(|(id, primitive)| Boxed { id, bounds: primitive.bounds() }).collect();
+        let flat = |(id, primitive): (usize, &Primitive)| {
+            let [normal, point] = primitive.as_plane()?;
+            Some(Flat { id: id as u32, mask: primitive.mask, normal, point })
+        };
+        let planes: Vec<Flat> = self.primitives.iter().enumerate().filter_map(flat).collect();
+        Some(Vantage::new(point, &boxed, &planes))
     }
 
     /// The nearest hit with 0 < t < `t_max` on a primitive that shares a bit with `mask`.
     ///
     /// `origin` is a vantage at the ray's origin, if there is one; it changes nothing but the speed.
+    #[inline]
     pub fn closest_hit(&self, ray: &Ray, t_max: f64, mask: u32, origin: Option<&Vantage>) -> Option<Hit> {
-        let listed = origin.and_then(|vantage| vantage.candidates(ray.direction));
-        dispatch!(self.level, simd => self.closest_hit_with(simd, ray, t_max, mask, listed))
+        match origin.and_then(|vantage| vantage.candidates(ray.direction)) {
+            Some(ids) => {
+                let mut best = Best { hit: None, t_max };
+                for &id in ids {
+                    self.offer(&mut best, id, ray, mask);
+                }
+                best.hit
+            }
+            None => dispatch!(self.level, simd => self.closest_hit_with(simd, ray, t_max, mask)),
+        }
+    }
+
+    /// Tests one primitive; keeps what is best.
+    #[inline(always)]
+    fn offer(&self, best: &mut Best, id: u32, ray: &Ray, mask: u32) {
+        let primitive = &self.primitives[id as usize];
+        if primitive.mask & mask != 0
+            && let Some(crossing) = primitive.intersect(ray, best.reach())
+        {
+            best.offer(id, crossing);
+        }
     }
 
     #[inline(always)]
-    fn closest_hit_with<S: Simd>(
-        &self,
-        simd: S,
-        ray: &Ray,
-        t_max: f64,
-        mask: u32,
-        listed: Option<&[u32]>,
-    ) -> Option<Hit> {
+    fn closest_hit_with<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, mask: u32) -> Option<Hit> {
         let mut best = Best { hit: None, t_max };
-        for (planes, ids) in self.planes.iter().zip(self.plane_ids.chunks(4)) {
-            let (hits, t) = planes.hits(simd, ray, best.reach());
-            for slot in slots(hits).filter(|&slot| self.primitives[ids[slot] as usize].mask & mask != 0) {
-                best.offer(ids[slot], Crossing { t: t[slot], part: 0 });
+        for planes in &self.planes {
+            let (mut hits, t) = planes.hits(simd, ray, best.reach());
+            while hits != 0 {
+                let slot = hits.trailing_zeros() as usize & 3;
+                hits &= hits - 1;
+                let id = planes.ids[slot];
+                if self.primitives[id as usize].mask & mask != 0 {
+                    best.offer(id, Crossing { t: t[slot], part: 0 });
+                }
             }
         }
         let reach = best.reach();
-        let mut test = |id: u32| {
-            let primitive = &self.primitives[id as usize];
-            if primitive.mask & mask != 0
-                && let Some(crossing) = primitive.intersect(ray, best.reach())
-            {
-                best.offer(id, crossing);
-            }
+        self.bvh.nearest(simd, ray, reach, |thing| {
+            self.offer(&mut best, self.bounded_ids[thing as usize], ray, mask);
             best.reach()
-        };
-        match listed {
-            Some(ids) => ids.iter().for_each(|&id| _ = test(id)),
-            None => self.bvh.nearest(simd, ray, reach, |thing| test(self.bounded_ids[thing as usize])),
-        }
+        });
         best.hit
     }
 
-    /// True if some primitive that shares a bit with `mask` is met with 0 < t < `t_max`.
+    /// The classes of the primitives that are met with 0 < t < `t_max`: the union of their masks, or as much of it as was
+    /// found until it shared a bit with `enough`.
     ///
     /// `end` is a vantage at the point that the ray is aimed at, if there is one; it changes nothing but the speed.
-    pub fn any_hit(&self, ray: &Ray, t_max: f64, mask: u32, end: Option<&Vantage>) -> bool {
-        let listed = end.and_then(|vantage| vantage.candidates(-ray.direction));
-        dispatch!(self.level, simd => self.any_hit_with(simd, ray, t_max, mask, listed))
+    #[inline]
+    pub fn classes_met(&self, ray: &Ray, t_max: f64, enough: u32, end: Option<&Vantage>) -> u32 {
+        match end.and_then(|vantage| vantage.candidates(-ray.direction)) {
+            Some(ids) => {
+                let mut classes = 0;
+                let _ = ids.iter().any(|&id| self.adds_class(&mut classes, id, ray, t_max) & enough != 0);
+                classes
+            }
+            None => dispatch!(self.level, simd => self.classes_met_with(simd, ray, t_max, enough)),
+        }
     }
 
     #[inline(always)]
-    fn any_hit_with<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, mask: u32, listed: Option<&[u32]>) -> bool {
-        for (planes, ids) in self.planes.iter().zip(self.plane_ids.chunks(4)) {
-            let (hits, _) = planes.hits(simd, ray, t_max);
-            if slots(hits).any(|slot| self.primitives[ids[slot] as usize].mask & mask != 0) {
-                return true;
+    fn classes_met_with<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, enough: u32) -> u32 {
+        let mut classes = 0;
+        for planes in &self.planes {
+            let mut hits = planes.met(simd, ray, t_max);
+            while hits != 0 {
+                classes |= self.primitives[planes.ids[hits.trailing_zeros() as usize & 3] as usize].mask;
+                hits &= hits - 1;
             }
         }
-        let test = |id: u32| {
-            let primitive = &self.primitives[id as usize];
-            primitive.mask & mask != 0 && primitive.intersect(ray, t_max).is_some()
-        };
-        match listed {
-            Some(ids) => ids.iter().any(|&id| test(id)),
-            None => self.bvh.any(simd, ray, t_max, |thing| test(self.bounded_ids[thing as usize])),
+        if classes & enough == 0 {
+            self.bvh.any(simd, ray, t_max, |thing| {
+                self.adds_class(&mut classes, self.bounded_ids[thing as usize], ray, t_max) & enough != 0
+            });
         }
+        classes
+    }
+
+    /// Adds the class of a primitive if the ray meets it; gives the classes met so far.
+    #[inline(always)]
+    fn adds_class(&self, classes: &mut u32, id: u32, ray: &Ray, t_max: f64) -> u32 {
+        let primitive = &self.primitives[id as usize];
+        if *classes | primitive.mask != *classes && primitive.intersect(ray, t_max).is_some() {
+            *classes |= primitive.mask;
+        }
+        *classes
     }
 
     /// The surface at a hit of `ray`.
@@ -154,16 +189,6 @@ impl World {
     pub fn uv(&self, point: DVec3, hit: &Hit) -> DVec2 {
         self.primitives[hit.primitive as usize].uv(point, hit.crossing.part)
     }
-}
-
-/// The bits that are set, lowest first, of the four that a group of planes has.
-#[inline(always)]
-fn slots(mut bits: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let slot = (bits != 0).then(|| bits.trailing_zeros() as usize & 3)?;
-        bits &= bits - 1;
-        Some(slot)
-    })
 }
 
 /// The best hit so far.

@@ -48,6 +48,7 @@ pub fn cbrt(x: f64) -> f64 {
 ///
 /// Cody and Waite's reduction: x = n ln 2 + r with |r| ≤ ln 2 / 2, a polynomial for eʳ, and n put into the exponent.
 /// Evaluated in double precision, where a Taylor polynomial of degree 7 leaves an error near 3·10⁻⁹.
+#[inline]
 pub fn exp(x: f32) -> f32 {
     if x > 88.8 {
         return f32::INFINITY;
@@ -60,6 +61,7 @@ pub fn exp(x: f32) -> f32 {
 
 /// `base` to the power `exponent`, in single precision with a relative error below 2⁻²², for `base` ≥ 0.
 /// `pow(x, 0)` is 1, `pow(0, y)` is 0 for y > 0; a negative base gives NaN.
+#[inline]
 pub fn pow(base: f32, exponent: f32) -> f32 {
     if exponent == 0.0 || base == 1.0 {
         return 1.0;
@@ -83,19 +85,24 @@ pub fn pow(base: f32, exponent: f32) -> f32 {
     }
 }
 
-/// 2 to the power `x`, for |x| ≤ 1000.
+/// 2 to the power `x`, for |x| ≤ 1000: a Taylor polynomial of degree 8, by Estrin's scheme, whose steps do not wait for
+/// each other as Horner's do.
+#[inline]
 fn exp2_of(x: f64) -> f64 {
-    let n = (x + 0.5).floor();
-    let r = (x - n) * std::f64::consts::LN_2;
-    let mut sum = 1.0 / 40320.0;
-    for k in [1.0 / 5040.0, 1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
-        sum = sum * r + k;
-    }
-    let two_to_n = f64::from_bits(((n as i64 + 1023) as u64) << 52);
-    sum * two_to_n
+    // Adding this rounds to a whole number, which then stands in the lowest bits.
+    const ROUND: f64 = (3_u64 << 51) as f64;
+    let rounded = x + ROUND;
+    let r = (x - (rounded - ROUND)) * std::f64::consts::LN_2;
+    let r2 = r * r;
+    let r4 = r2 * r2;
+    let low = (1.0 + r) + r2 * (0.5 + r * (1.0 / 6.0));
+    let high = (1.0 / 24.0 + r * (1.0 / 120.0)) + r2 * (1.0 / 720.0 + r * (1.0 / 5040.0));
+    let two_to_n = f64::from_bits((rounded.to_bits() << 52).wrapping_add(1023 << 52));
+    (low + r4 * high + (r4 * r4) * (1.0 / 40320.0)) * two_to_n
 }
 
 /// Base-2 logarithm of a positive, normal number: mantissa m in [√½, √2), ln m = 2 artanh((m-1)/(m+1)).
+#[inline]
 fn log2_of(x: f64) -> f64 {
     const MANTISSA: u64 = (1 << 52) - 1;
     // Shifting by the bits of √½ makes the exponent field count from √½ instead of from 1.

@@ -15,7 +15,8 @@ pub(crate) struct Camera {
     right: DVec3,
     up: DVec3,
     parallel: bool,
-    size: DVec2,
+    /// From pixels to -1..1.
+    scale: DVec2,
 }
 
 impl Camera {
@@ -44,7 +45,7 @@ impl Camera {
             right: right * (half_height * aspect),
             up: up * half_height,
             parallel,
-            size: DVec2::new(f64::from(width), f64::from(height)),
+            scale: DVec2::new(2.0 / f64::from(width), 2.0 / f64::from(height)),
         }
     }
 
@@ -54,8 +55,9 @@ impl Camera {
     }
 
     /// The ray through a point of the picture, in pixels from its upper left corner.
+    #[inline]
     pub(crate) fn ray(&self, at: DVec2) -> Ray {
-        let (x, y) = (2.0 * at.x / self.size.x - 1.0, 1.0 - 2.0 * at.y / self.size.y);
+        let (x, y) = (at.x * self.scale.x - 1.0, 1.0 - at.y * self.scale.y);
         let across = self.right * x + self.up * y;
         if self.parallel {
             Ray { origin: self.position + across, direction: self.forward }

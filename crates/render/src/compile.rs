@@ -32,12 +32,12 @@ pub struct CompiledScene {
     pub(crate) fog: Option<Fog>,
     pub(crate) picture: Picture,
     pub(crate) settings: RenderSettings,
+    /// True if the eye's rays may start inside of a medium.
+    pub(crate) eye_in_medium: bool,
     /// Primitives that are filled with a medium.
     pub(crate) media: Vec<u32>,
     /// True if some medium takes light away.
     pub(crate) attenuates: bool,
-    /// True if some primitive lets light through.
-    pub(crate) has_clear: bool,
 }
 
 /// What shading needs to know of a primitive.
@@ -59,12 +59,15 @@ pub fn compile(scene: &CheckedScene) -> CompiledScene {
     let is_medium = |&id: &u32| materials[objects[id as usize].material as usize].is_medium();
     let media: Vec<u32> = (0..objects.len() as u32).filter(is_medium).collect();
     let attenuates = materials.iter().any(|m| m.attenuation.is_some());
-    let has_clear = primitives.iter().any(|p| p.mask & CLEAR != 0);
     let world = World::build(primitives);
     let Picture { width, height, .. } = scene.picture;
     let camera = Camera::compile(scene.camera.as_ref(), world.bounds(), width, height);
     let lights: Vec<Light> = scene.lights.iter().map(Light::compile).collect();
     CompiledScene {
+        eye_in_medium: match camera.eye() {
+            Some(eye) => media.iter().any(|&id| world.primitives()[id as usize].contains(eye)),
+            None => !media.is_empty(),
+        },
         eye_vantage: camera.eye().and_then(|eye| world.vantage(eye)),
         camera,
         light_vantages: lights.iter().map(|light| world.vantage(light.position()?)).collect(),
@@ -80,7 +83,6 @@ pub fn compile(scene: &CheckedScene) -> CompiledScene {
         settings: scene.render,
         media,
         attenuates,
-        has_clear,
     }
 }
 

@@ -61,6 +61,11 @@ impl Media {
         }
     }
 
+    /// True in empty space.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.inside.is_empty()
+    }
+
     /// True if the primitive is among them.
     pub(crate) fn contains(&self, primitive: u32) -> bool {
         self.inside.contains(&primitive)

@@ -17,10 +17,10 @@ const SHORT_OF_LIGHT: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;
 #[inline]
 pub(crate) fn visibility(scene: &CompiledScene, media: &Media, ray: &Ray, distance: f64, light: usize) -> Rgb {
     let reach = distance * SHORT_OF_LIGHT;
-    let vantage = scene.light_vantages[light].as_ref();
-    if scene.world.any_hit(ray, reach, OPAQUE, vantage) {
+    let met = scene.world.classes_met(ray, reach, OPAQUE, scene.light_vantages[light].as_ref());
+    if met & OPAQUE != 0 {
         Rgb::BLACK
-    } else if scene.has_clear && (scene.attenuates || scene.world.any_hit(ray, reach, CLEAR, vantage)) {
+    } else if met & CLEAR != 0 || !media.is_empty() {
         through_clear(scene, media, *ray, reach)
     } else {
         Rgb::WHITE

@@ -95,7 +95,7 @@ impl Cone {
         }
         let (x, z) = if r > 0.0 { (p.x / r, p.z / r) } else { (1.0, 0.0) };
         let w = self.radius_at(y);
-        (DVec3::new(x * w, y, z * w), DVec3::new(x, -k, z))
+        (DVec3::new(x * w, y, z * w), DVec3::new(x, -k, z).normalize())
     }
 }
 

@@ -74,7 +74,7 @@ impl Shape for Triangle {
         let [a, b, c] = self.vertices;
         let (ab, ac) = (b - a, c - a);
         let (v, w) = self.weights(point);
-        (a + ab * v + ac * w, ab.cross(ac))
+        (a + ab * v + ac * w, ab.cross(ac).normalize())
     }
 
     fn uv(&self, point: DVec3, _part: u32) -> DVec2 {

@@ -11,32 +11,59 @@ use fearless_simd::{Simd, f64x4, prelude::*};
 pub(crate) struct Planes {
     normal: [[f64; 4]; 3],
     point: [[f64; 4]; 3],
+    /// The primitives that they are.
+    pub(crate) ids: [u32; 4],
 }
 
 impl Planes {
     /// Four planes that nothing meets.
-    pub(crate) const EMPTY: Planes = Planes { normal: [[0.0; 4]; 3], point: [[0.0; 4]; 3] };
+    pub(crate) const EMPTY: Planes = Planes { normal: [[0.0; 4]; 3], point: [[0.0; 4]; 3], ids: [0; 4] };
 
     /// Puts a plane into a slot.
-    pub(crate) fn set(&mut self, slot: usize, normal: DVec3, point: DVec3) {
+    pub(crate) fn set(&mut self, slot: usize, id: u32, normal: DVec3, point: DVec3) {
+        self.ids[slot] = id;
         for axis in 0..3 {
             self.normal[axis][slot] = normal[axis];
             self.point[axis][slot] = point[axis];
         }
     }
 
+    /// How high a point is above each plane, in units of the normal's length.
+    #[inline(always)]
+    fn height<S: Simd>(&self, simd: S, p: DVec3) -> f64x4<S> {
+        let along = |axis: usize, x: f64| {
+            let from_plane = f64x4::splat(simd, x) - f64x4::from_slice(simd, &self.point[axis]);
+            f64x4::from_slice(simd, &self.normal[axis]) * from_plane
+        };
+        along(0, p.x) + along(1, p.y) + along(2, p.z)
+    }
+
+    /// How fast the ray gains height above each plane.
+    #[inline(always)]
+    fn rate<S: Simd>(&self, simd: S, d: DVec3) -> f64x4<S> {
+        let along =
+            |axis: usize, x: f64| f64x4::from_slice(simd, &self.normal[axis]) * f64x4::splat(simd, x);
+        along(0, d.x) + along(1, d.y) + along(2, d.z)
+    }
+
     /// Which planes the ray meets with 0 < t < `t_max`, one bit each, and where.
     #[inline(always)]
-    pub(crate) fn hits<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64) -> (u64, [f64; 4]) {
-        let load = |lanes: &[f64; 4]| f64x4::simd_from(simd, *lanes);
-        let splat = |x: f64| f64x4::splat(simd, x);
-        let [nx, ny, nz] = [load(&self.normal[0]), load(&self.normal[1]), load(&self.normal[2])];
-        let height = nx * (splat(ray.origin.x) - load(&self.point[0]))
-            + ny * (splat(ray.origin.y) - load(&self.point[1]))
-            + nz * (splat(ray.origin.z) - load(&self.point[2]));
-        let rate = nx * splat(ray.direction.x) + ny * splat(ray.direction.y) + nz * splat(ray.direction.z);
-        let t = -height / rate;
-        let hit = t.simd_gt(splat(0.0)) & t.simd_lt(splat(t_max));
-        (hit.to_bitmask(), t.into())
+    pub(crate) fn hits<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64) -> (u32, [f64; 4]) {
+        let t = -self.height(simd, ray.origin) / self.rate(simd, ray.direction);
+        let hit = t.simd_gt(f64x4::splat(simd, 0.0)) & t.simd_lt(f64x4::splat(simd, t_max));
+        (hit.to_bitmask() as u32, t.into())
+    }
+
+    /// Which planes the ray meets with 0 < t < `t_max`: those that its ends lie on different sides of.
+    #[inline(always)]
+    pub(crate) fn met<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64) -> u32 {
+        let zero = f64x4::splat(simd, 0.0);
+        let start = self.height(simd, ray.origin);
+        let gain = self.rate(simd, ray.direction);
+        // An infinite ray ends where it is heading.
+        let end = if t_max < f64::INFINITY { start + gain * f64x4::splat(simd, t_max) } else { gain };
+        let down = start.simd_gt(zero) & end.simd_lt(zero);
+        let up = start.simd_lt(zero) & end.simd_gt(zero);
+        (down | up).to_bitmask() as u32
     }
 }

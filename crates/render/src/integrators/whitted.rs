@@ -21,7 +21,7 @@ pub(crate) struct Whitted;
 
 impl Integrator for Whitted {
     fn radiance<O: Observer>(&self, scene: &CompiledScene, ray: &Ray, observer: &mut O) -> Rgb {
-        let media = if scene.media.is_empty() { Media::default() } else { Media::around(scene, ray) };
+        let media = if scene.eye_in_medium { Media::around(scene, ray) } else { Media::default() };
         let mut path = Path { scene, media, sum: Rgb::BLACK, observer };
         path.trace(RayKind::Eye, 1, ray, Rgb::WHITE);
         path.sum
