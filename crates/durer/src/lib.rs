@@ -7,7 +7,8 @@
 //! ```
 //!
 //! ```
-//! let loaded = durer::load_str("objects: [sphere: {radius: 1, material: {color: tomato}}]", "ball.yaml")?;
+//! let text = "objects: [sphere: {radius: 1, material: {color: tomato}}]";
+//! let loaded = durer::load_str(text, "ball.yaml", &durer::NoAssets, &durer::Limits::default())?;
 //! let film = durer::render(&durer::compile(&loaded.scene), &durer::RenderOptions::default(), &())?;
 //! let image = film.develop();
 //! assert_eq!((image.width, image.height), (640, 480));
@@ -17,8 +18,8 @@
 mod files;
 
 pub use durer_formats::{
-    AssetError, Assets, Diagnostic, Diagnostics, FolderAssets, Limits, LoadOptions, Loaded, NoAssets, json_schema, load, load_file,
-    reference_markdown, to_yaml,
+    AssetError, Assets, Diagnostic, Diagnostics, FolderAssets, Limits, LoadOptions, Loaded, NoAssets, Related, Severity,
+    json_schema, load_bytes, load_file, load_str, reference_markdown, to_yaml,
 };
 pub use durer_imaging as imaging;
 pub use durer_math as math;
