@@ -4,6 +4,7 @@ mod json;
 mod show;
 
 use crate::native::tree::Span;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// How bad it is.
@@ -130,6 +131,9 @@ impl Diagnostics {
     /// Sorts by place and keeps the first `most`.
     pub(crate) fn new(mut complaints: Vec<Complaint>, file: &str, source: &str, most: usize) -> Diagnostics {
         complaints.sort_by_key(|complaint| complaint.span.start);
+        // What an alias stands for is read, and may be wrong, at each use.
+        let mut seen = BTreeSet::new();
+        complaints.retain(|one| seen.insert((one.span.start, one.span.end, one.message.clone())));
         let omitted = complaints.len().saturating_sub(most);
         complaints.truncate(most);
         let list = complaints.into_iter().map(|complaint| complaint.into_diagnostic(file, source)).collect();

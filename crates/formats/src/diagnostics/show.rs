@@ -35,7 +35,8 @@ fn render_one(diagnostic: &Diagnostic, source: &str, renderer: &Renderer) -> Str
         Severity::Warning => Level::WARNING,
     };
     let primary = (diagnostic.span.clone(), diagnostic.label.as_deref());
-    let mut group = level.primary_title(&diagnostic.message).element(snippet(diagnostic, source, primary, AnnotationKind::Primary));
+    let mut group =
+        level.primary_title(&diagnostic.message).element(snippet(diagnostic, source, primary, AnnotationKind::Primary));
     for place in &diagnostic.related {
         let secondary = (place.span.clone(), Some(place.label.as_str()));
         group = group.element(snippet(diagnostic, source, secondary, AnnotationKind::Context));
@@ -59,10 +60,7 @@ fn snippet<'a>(
     let end = source[start..].find('\n').map_or(source.len(), |newline| start + newline);
     let line_number = source[..start].bytes().filter(|&b| b == b'\n').count() + 1;
     let (cut, span) = cut_line(&source[start..end], span.start - start..span.end.min(end).max(span.start) - start);
-    Snippet::source(cut)
-        .line_start(line_number)
-        .path(diagnostic.file.as_str())
-        .annotation(kind.span(span).label(label))
+    Snippet::source(cut).line_start(line_number).path(diagnostic.file.as_str()).annotation(kind.span(span).label(label))
 }
 
 /// The line, or the part of it around the place with `…` for what is missing; and the place in that part.

@@ -93,7 +93,16 @@ fn projection(from: &mut Fields<'_, '_, '_>) -> Projection {
             let Orthographic { height } = from.required("orthographic");
             Projection::Orthographic { height }
         }
-        Some(_) | None => Projection::FieldOfView { degrees: from.or("fov", || 50.0) },
+        Some((_, span)) => {
+            let degrees: f64 = from.required("fov");
+            if degrees > 0.0 && degrees < 3.2 && degrees.fract() != 0.0 {
+                let message = format!("a field of view of {degrees} degrees is very narrow");
+                let help = "`fov` is given in degrees, not radians";
+                let _: Option<()> = from.cx.complain(Complaint::warning(span, message).help(help));
+            }
+            Projection::FieldOfView { degrees }
+        }
+        None => Projection::FieldOfView { degrees: 50.0 },
     }
 }
 

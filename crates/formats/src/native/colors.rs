@@ -1,7 +1,7 @@
 //! Colours by name and by hexadecimal number: sRGB, made linear.
 
+use durer_imaging::linear_from_srgb;
 use durer_math::Rgb;
-use durer_math::functions::pow;
 
 /// The linear colour that `#rgb`, `#rrggbb` or a CSS name stands for.
 pub(crate) fn parse(text: &str) -> Option<Rgb> {
@@ -26,13 +26,8 @@ fn from_hex(digits: &str) -> Option<Rgb> {
 }
 
 fn from_srgb(rgb: u32) -> Rgb {
-    let component = |shift: u32| linear((rgb >> shift & 255) as f32 / 255.0);
+    let component = |shift: u32| linear_from_srgb((rgb >> shift & 255) as f32 / 255.0);
     Rgb::new(component(16), component(8), component(0))
-}
-
-/// The inverse of sRGB's transfer curve (IEC 61966-2-1).
-fn linear(encoded: f32) -> f32 {
-    if encoded <= 0.04045 { encoded / 12.92 } else { pow((encoded + 0.055) / 1.055, 2.4) }
 }
 
 /// The named colours of CSS Color Module Level 4, in alphabetical order, as `0xrrggbb`.

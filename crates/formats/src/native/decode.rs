@@ -10,6 +10,11 @@ use durer_scene::{ImageId, Scene};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+/// Complaints beyond these are not kept.
+pub(crate) const MOST_COMPLAINTS: usize = 10_000;
+/// Complaints beyond these get no suggestions.
+const MOST_HELPED: usize = 200;
+
 /// What reading a file has gathered so far.
 pub(crate) struct Decoder<'a> {
     pub(crate) complaints: Vec<Complaint>,
@@ -26,7 +31,7 @@ pub(crate) struct Decoder<'a> {
     pub(crate) image_nodes: Vec<Rc<Node>>,
     /// Images by the name of their file; `None` if it could not be read.
     pub(crate) images: BTreeMap<String, Option<ImageId>>,
-    /// Texture entries being entered by name, to make one definition per name.
+    /// Pixels of all images so far.
     pub(crate) texels: u64,
 }
 
@@ -64,8 +69,15 @@ impl<'a> Decoder<'a> {
     }
 
     pub(crate) fn complain<T>(&mut self, complaint: Complaint) -> Option<T> {
-        self.complaints.push(complaint);
+        if self.complaints.len() < MOST_COMPLAINTS {
+            self.complaints.push(complaint);
+        }
         None
+    }
+
+    /// True when so much is wrong that help is no longer worth the search.
+    pub(crate) fn is_tired(&self) -> bool {
+        self.complaints.len() >= MOST_HELPED
     }
 }
 
@@ -111,7 +123,8 @@ impl<'n, 'd, 'a> Fields<'n, 'd, 'a> {
         };
         let written = key.text().unwrap_or_default();
         let Some(word) = words.iter().find(|word| **word == written) else {
-            return cx.complain(unknown_kind(key, value, noun, words));
+            let known = if cx.is_tired() { &[] } else { words };
+            return cx.complain(unknown_kind(key, value, noun, known));
         };
         let entries = match value.map(|value| (&value.kind, value)) {
             None => &[][..],
@@ -174,7 +187,7 @@ impl<'n, 'd, 'a> Fields<'n, 'd, 'a> {
     /// Complains, and remembers that the thing is broken.
     pub(crate) fn break_with(&mut self, complaint: Complaint) {
         self.broken = true;
-        self.cx.complaints.push(complaint);
+        let _: Option<()> = self.cx.complain(complaint);
     }
 
     /// Refuses fields that nobody asked for; true if all went well.
@@ -182,7 +195,8 @@ impl<'n, 'd, 'a> Fields<'n, 'd, 'a> {
         for (key, value) in self.entries {
             let name = key.text().unwrap_or_default();
             if !self.asked.contains(&name) {
-                let help = super::hints::unknown_field(self.title, name, value, &self.asked);
+                let known = if self.cx.is_tired() { &[][..] } else { &self.asked };
+                let help = super::hints::unknown_field(self.title, name, value, known);
                 let message = match self.title {
                     "scene" => format!("unknown field `{}`", shorten(name)),
                     title => format!("unknown field `{}` of `{title}`", shorten(name)),

@@ -15,7 +15,7 @@ pub(crate) fn unknown_field(title: &str, name: &str, value: &Node, known: &[&str
             _ => format!("{help}: `transform: [translate: [0, 1, 0], scale: 2]`"),
         };
     }
-    if title == "camera" && name.starts_with("horizontal") || matches!(name, "hfov" | "fovx" | "xfov") && title == "camera" {
+    if title == "camera" && (name.starts_with("horizontal") || matches!(name, "hfov" | "fovx" | "xfov")) {
         return "`fov` is the vertical angle of view, in degrees".to_owned();
     }
     if name == "opacity" || name == "alpha" {

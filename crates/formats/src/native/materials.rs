@@ -48,17 +48,49 @@ record_value!(Attenuation, "attenuation", Attenuation { color: Rgb::WHITE, dista
 
 impl From<Surface> for Material {
     fn from(surface: Surface) -> Material {
-        let Surface { color, ambient, diffuse, specular, shininess, reflection, transparency, ior, fresnel, attenuation } =
-            surface;
+        let Surface {
+            color,
+            ambient,
+            diffuse,
+            specular,
+            shininess,
+            reflection,
+            transparency,
+            ior,
+            fresnel,
+            attenuation,
+        } = surface;
         let name = None;
-        Material { name, color, ambient, diffuse, specular, shininess, reflection, transparency, ior, fresnel, attenuation }
+        Material {
+            name,
+            color,
+            ambient,
+            diffuse,
+            specular,
+            shininess,
+            reflection,
+            transparency,
+            ior,
+            fresnel,
+            attenuation,
+        }
     }
 }
 
 impl From<&Material> for Surface {
     fn from(material: &Material) -> Surface {
         let Material {
-            name: _, color, ambient, diffuse, specular, shininess, reflection, transparency, ior, fresnel, attenuation,
+            name: _,
+            color,
+            ambient,
+            diffuse,
+            specular,
+            shininess,
+            reflection,
+            transparency,
+            ior,
+            fresnel,
+            attenuation,
         } = *material;
         Surface { color, ambient, diffuse, specular, shininess, reflection, transparency, ior, fresnel, attenuation }
     }
@@ -85,7 +117,9 @@ impl Value for Material {
     }
     fn advice(node: &Node) -> Option<String> {
         match &node.kind {
-            NodeKind::Scalar { .. } if node.is_null() => Some("write `{}` for a material that is all defaults".to_owned()),
+            NodeKind::Scalar { .. } if node.is_null() => {
+                Some("write `{}` for a material that is all defaults".to_owned())
+            }
             NodeKind::Scalar { text, .. } => Some(format!("write `{{color: {}}}`", shorten(text))),
             NodeKind::Sequence(_) | NodeKind::Mapping(_) => Some("for example `{color: red}`".to_owned()),
         }
@@ -115,7 +149,9 @@ impl Value for MaterialId {
                     cx.complain(complaint)
                 }
             },
-            NodeKind::Scalar { .. } | NodeKind::Sequence(_) => cx.expected::<Material>(node),
+            NodeKind::Scalar { .. } | NodeKind::Sequence(_) => {
+                cx.expected_noun(node, &Material::noun(), Material::advice(node))
+            }
         }
     }
     fn encode(&self, writer: &Writer<'_>) -> Out {
@@ -129,6 +165,9 @@ impl Value for MaterialId {
 fn unknown_material(node: &Node, text: &str, cx: &Decoder<'_>) -> Complaint {
     let complaint = Complaint::error(node.span, format!("unknown material `{}`", shorten(text)));
     let complaint = complaint.label("not defined under `materials`");
+    if cx.is_tired() {
+        return complaint;
+    }
     let names: Vec<&str> = cx.material_names.keys().map(String::as_str).collect();
     if let Some(near) = suggest::nearest(text, names.iter().copied()) {
         return complaint.help(format!("did you mean `{near}`?"));

@@ -99,7 +99,8 @@ record!(Placing {
     transform: Transform = Transform::default() => "Steps that move it, the first one first.";
 });
 
-const GROUP_EXAMPLE: &str = "group: {objects: [sphere: {radius: 1}, sphere: {center: [2, 0, 0]}], material: {color: gold}}";
+const GROUP_EXAMPLE: &str =
+    "group: {objects: [sphere: {radius: 1}, sphere: {center: [2, 0, 0]}], material: {color: gold}}";
 
 /// The kinds of object: all shapes, and groups.
 pub(crate) fn kinds() -> Vec<KindAbout> {

@@ -28,6 +28,7 @@ impl Value for Rgb {
             NodeKind::Scalar { .. } if number_text(node).is_some() => f32::decode(node, cx).map(Rgb::gray),
             NodeKind::Scalar { text, .. } if !node.is_null() => match colors::parse(text) {
                 Some(color) => Some(color),
+                None if cx.is_tired() => cx.refuse(node, &format!("unknown color `{}`", shorten(text))),
                 None => cx.complain(unknown_color(node, text, &[])),
             },
             NodeKind::Scalar { .. } | NodeKind::Mapping(_) => cx.expected::<Self>(node),
@@ -124,6 +125,9 @@ fn named(node: &Node, text: &str, cx: &mut Decoder<'_>) -> Option<Paint> {
     }
     if let Some(color) = colors::parse(text) {
         return Some(Paint::Color(color));
+    }
+    if cx.is_tired() {
+        return cx.refuse(node, &format!("unknown color `{}`", shorten(text)));
     }
     let textures: Vec<&str> = cx.texture_names.keys().map(String::as_str).collect();
     let complaint = unknown_color(node, text, &textures);

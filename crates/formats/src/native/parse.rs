@@ -10,7 +10,8 @@ use std::rc::Rc;
 /// The one document in `text`; `None` if it is empty or a complaint says why there is none.
 pub(crate) fn parse(text: &str, limits: &Limits, complaints: &mut Vec<Complaint>) -> Option<Rc<Node>> {
     if let Some(at) = text.find('\0') {
-        complaints.push(Complaint::error(Span::new(at, at + 1), "this file holds a zero byte").help("is this a text file?"));
+        complaints
+            .push(Complaint::error(Span::new(at, at + 1), "this file holds a zero byte").help("is this a text file?"));
         return None;
     }
     let bom = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
@@ -80,7 +81,10 @@ struct Cursor {
 impl Cursor {
     fn seek(&mut self, text: &str, bom: usize, index: usize) -> usize {
         if index < self.index {
-            (self.index, self.byte) = (0, bom);
+            let back = self.index - index;
+            let mut before = text[bom..self.byte].char_indices().rev();
+            (self.index, self.byte) = (index, before.nth(back - 1).map_or(bom, |(at, _)| bom + at));
+            return self.byte;
         }
         let ahead = index - self.index;
         let rest = &text[self.byte..];
@@ -106,7 +110,11 @@ impl Builder<'_> {
                 Event::DocumentStart(_) => {
                     documents += 1;
                     if documents > 1 {
-                        return stop(span, "a second document begins here", "a scene file holds one document: remove `---`");
+                        return stop(
+                            span,
+                            "a second document begins here",
+                            "a scene file holds one document: remove `---`",
+                        );
                     }
                 }
                 Event::Alias(id) => self.alias(id, span)?,
@@ -138,7 +146,7 @@ impl Builder<'_> {
 
     fn open(&mut self, anchor: usize, tagged: bool, span: Span, mapping: bool) -> Result<(), Stop> {
         self.refuse_tag(tagged, span);
-        if self.stack.len() >= self.limits.max_nesting {
+        if self.stack.len() >= self.deepest() {
             return self.too_deep(span);
         }
         let flow = self.text[span.start..].starts_with(['[', '{']);
@@ -146,8 +154,13 @@ impl Builder<'_> {
         Ok(())
     }
 
+    /// Reading recurses, so that no setting may allow more than the default.
+    fn deepest(&self) -> usize {
+        self.limits.max_nesting.min(200)
+    }
+
     fn too_deep(&self, span: Span) -> Result<(), Stop> {
-        let message = format!("nested more than {} levels deep", self.limits.max_nesting);
+        let message = format!("nested more than {} levels deep", self.deepest());
         stop(span, &message, "no scene needs this: is a bracket missing?")
     }
 
@@ -155,7 +168,7 @@ impl Builder<'_> {
         let Some(target) = self.anchors.get(&id).cloned() else {
             return stop(span, "this alias stands inside the very thing that it stands for", "it would never end");
         };
-        if self.stack.len() + target.levels > self.limits.max_nesting {
+        if self.stack.len() + target.levels > self.deepest() {
             return self.too_deep(span);
         }
         if self.total + target.values > self.limits.max_values {

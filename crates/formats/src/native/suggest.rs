@@ -135,16 +135,24 @@ const OTHER_WORDS: &[(&str, &str)] = &[
     ("turn", "rotate"),
 ];
 
+/// Names beyond these are not compared: a hostile file has many.
+const MOST_CANDIDATES: usize = 2000;
+
 /// The one of `known` that was probably meant by `word`.
 pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word = word.chars().take(64).collect::<String>().to_lowercase().replace('-', "_");
+    let length = word.chars().count();
     let mut best: Option<(usize, &str)> = None;
-    for candidate in known {
+    for candidate in known.into_iter().take(MOST_CANDIDATES) {
         if OTHER_WORDS.iter().any(|(other, ours)| *other == word && *ours == candidate) {
             return Some(candidate);
         }
+        // Bytes bound characters from above, and are there at no cost.
+        if candidate.len() > 6 * (length + 1) {
+            continue;
+        }
         let distance = strsim::damerau_levenshtein(&word, &candidate.to_lowercase());
-        let allowed = word.chars().count().max(candidate.chars().count()) / 3;
+        let allowed = length.max(candidate.chars().count()) / 3;
         if distance <= allowed && best.is_none_or(|(least, _)| distance < least) {
             best = Some((distance, candidate));
         }
@@ -156,7 +164,7 @@ pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
 pub(crate) fn did_you_mean(word: &str, known: &[&str], kind_of_choice: &str) -> String {
     match nearest(word, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
-        None if known.is_empty() => format!("there are no {kind_of_choice}"),
+        None if known.is_empty() => format!("see the {kind_of_choice} in the reference"),
         None => format!("the {kind_of_choice} are {}", list(known)),
     }
 }

@@ -17,7 +17,11 @@ pub(crate) const STEPS: [(&str, &str, &str); 4] = [
     ("translate", "Moves by a vector.", "translate: [0, 1, 0]"),
     ("scale", "Multiplies all coordinates by a number, or each by its own.", "scale: [1, 2, 1]"),
     ("rotate", "Turns about an axis, in degrees, by the right-hand rule.", "rotate: {y: 45}"),
-    ("matrix", "Multiplies by a matrix, given by rows; a fourth row must be 0, 0, 0, 1.", "matrix: [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0]]"),
+    (
+        "matrix",
+        "Multiplies by a matrix, given by rows; a fourth row must be 0, 0, 0, 1.",
+        "matrix: [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0]]",
+    ),
 ];
 
 impl Value for Transform {
@@ -45,8 +49,12 @@ impl Value for Transform {
     }
     fn advice(node: &Node) -> Option<String> {
         match &node.kind {
-            NodeKind::Mapping(_) => Some("the order of steps counts: begin each with `- `, the first one first".to_owned()),
-            NodeKind::Scalar { .. } | NodeKind::Sequence(_) => Some("for example `[rotate: {y: 45}, translate: [0, 1, 0]]`".to_owned()),
+            NodeKind::Mapping(_) => {
+                Some("the order of steps counts: begin each with `- `, the first one first".to_owned())
+            }
+            NodeKind::Scalar { .. } | NodeKind::Sequence(_) => {
+                Some("for example `[rotate: {y: 45}, translate: [0, 1, 0]]`".to_owned())
+            }
         }
     }
 }
@@ -82,7 +90,8 @@ impl Value for TransformStep {
             "matrix" => matrix(value, cx).map(TransformStep::Matrix),
             other => {
                 let words = STEPS.map(|(word, ..)| word);
-                let help = suggest::did_you_mean(other, &words, "steps");
+                let known = if cx.is_tired() { &[][..] } else { &words };
+                let help = suggest::did_you_mean(other, known, "steps");
                 cx.complain(Complaint::error(key.span, format!("unknown step `{}`", shorten(other))).help(help))
             }
         }

@@ -50,7 +50,8 @@ pub(crate) fn number_out(debug: String) -> Out {
 /// Advice for text where a number should be.
 fn number_advice(node: &Node) -> Option<String> {
     let text = node.text()?;
-    if matches!(text.to_ascii_lowercase().trim_start_matches(['-', '+']), ".inf" | ".nan" | "inf" | "nan" | "infinity") {
+    if matches!(text.to_ascii_lowercase().trim_start_matches(['-', '+']), ".inf" | ".nan" | "inf" | "nan" | "infinity")
+    {
         return Some("numbers must be finite".to_owned());
     }
     let with_point = text.replacen(',', ".", 1);
@@ -116,7 +117,8 @@ impl Value for u32 {
             return cx.expected::<Self>(node);
         }
         if !(0.0..=f64::from(u32::MAX)).contains(&number) {
-            return cx.refuse(node, if number < 0.0 { "this must not be negative" } else { "this number is too large" });
+            return cx
+                .refuse(node, if number < 0.0 { "this must not be negative" } else { "this number is too large" });
         }
         Some(number as u32)
     }
@@ -276,7 +278,7 @@ fn items_of<'n, T: Value>(
     most: usize,
 ) -> Option<&'n [Rc<Node>]> {
     let NodeKind::Sequence(items) = &node.kind else {
-        return cx.expected::<T>(node);
+        return cx.expected_noun(node, &T::noun(), T::advice(node));
     };
     if (least..=most).contains(&items.len()) {
         return Some(items);
@@ -294,7 +296,8 @@ impl<T: Item, const N: usize> Value for [T; N] {
     }
     fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
         let items = items_of::<Self>(node, cx, N, N)?;
-        let values: Vec<T> = items.iter().map(|item| T::decode(item, cx)).collect::<Vec<_>>().into_iter().collect::<Option<_>>()?;
+        let values: Vec<T> =
+            items.iter().map(|item| T::decode(item, cx)).collect::<Vec<_>>().into_iter().collect::<Option<_>>()?;
         values.try_into().ok()
     }
     fn encode(&self, writer: &Writer<'_>) -> Out {

@@ -102,7 +102,8 @@ impl Out {
             Out::Text(text) => quoted(text),
             Out::List(items) => format!("[{}]", items.iter().map(Out::to_flow).collect::<Vec<_>>().join(", ")),
             Out::Fields(fields) => {
-                let fields: Vec<_> = fields.iter().map(|(key, value)| format!("{}: {}", quoted(key), value.to_flow())).collect();
+                let fields: Vec<_> =
+                    fields.iter().map(|(key, value)| format!("{}: {}", quoted(key), value.to_flow())).collect();
                 format!("{{{}}}", fields.join(", "))
             }
         }
@@ -126,7 +127,8 @@ impl Out {
         let mut text = String::new();
         if let Out::Fields(fields) = self {
             for (at, (key, value)) in fields.iter().enumerate() {
-                let blocks = matches!(key.as_str(), "lights" | "textures" | "materials" | "objects") && !value.is_empty();
+                let blocks =
+                    matches!(key.as_str(), "lights" | "textures" | "materials" | "objects") && !value.is_empty();
                 if at > 0 && blocks {
                     text.push('\n');
                 }

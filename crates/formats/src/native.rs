@@ -1,0 +1,122 @@
+//! durer's own scene language: YAML (and so JSON) to [`Scene`](durer_scene::Scene) and back.
+//!
+//! Text becomes a tree whose values know their places (`parse`, `tree`); the tree becomes a scene (`file` and the
+//! families `objects`, `lights` …, each field defined once by the macros of `record`); the same definitions write
+//! scenes (`write`), and make the JSON Schema and the reference page.
+
+mod camera;
+mod colors;
+mod decode;
+mod file;
+mod hints;
+mod images;
+mod lights;
+mod materials;
+mod names;
+mod objects;
+mod paint;
+mod parse;
+mod place;
+mod record;
+mod reference;
+mod schema;
+mod settings;
+mod suggest;
+mod syntax;
+mod textures;
+mod transform;
+pub(crate) mod tree;
+mod value;
+mod write;
+
+pub use reference::reference_markdown;
+pub use schema::json_schema;
+
+use crate::diagnostics::Complaint;
+use crate::{Assets, Limits};
+use decode::Decoder;
+use durer_scene::{CheckedScene, Scene};
+use tree::Span;
+
+/// Reads and checks a scene; complaints may be warnings only, and then there is a scene.
+pub(crate) fn load(text: &str, assets: &dyn Assets, limits: &Limits) -> (Option<CheckedScene>, Vec<Complaint>) {
+    let mut complaints = Vec::new();
+    let Some(root) = parse::parse(text, limits, &mut complaints) else {
+        if complaints.is_empty() {
+            let complaint = Complaint::error(Span::new(0, 0), "this file is empty");
+            complaints.push(complaint.help("a scene needs objects: `objects: [sphere: {radius: 1}]`"));
+        }
+        return (None, complaints);
+    };
+    if root.is_null() {
+        let complaint = Complaint::error(Span::new(0, 0), "there is nothing in this file");
+        return (None, vec![complaint.help("a scene needs objects: `objects: [sphere: {radius: 1}]`")]);
+    }
+    let mut decoder = Decoder::new(assets, limits);
+    decoder.complaints = complaints;
+    file::read(&root, &mut decoder);
+    let checked = std::mem::take(&mut decoder.scene).check();
+    let mut complaints = std::mem::take(&mut decoder.complaints);
+    match checked {
+        Ok(scene) => {
+            let usable = !complaints.iter().any(Complaint::is_error);
+            (usable.then_some(scene), complaints)
+        }
+        Err(problems) => {
+            for problem in problems.into_iter().take(decode::MOST_COMPLAINTS) {
+                let span = place::span_of(&problem.place, &root, &decoder);
+                complaints.push(Complaint::error(span, problem.message).maybe_help(problem.help));
+            }
+            (None, complaints)
+        }
+    }
+}
+
+/// The scene as a scene file. Reading it gives an equal scene, if every texture and material has a name of its own;
+/// those without are written where they are used, or get a name if they are used several times. Meant for scenes that
+/// pass [`Scene::check`]; what is wrong with others is written as it is.
+pub fn to_yaml(scene: &Scene) -> String {
+    file::write(scene)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::record::{Choice, KindAbout};
+    use super::*;
+    use crate::{NoAssets, load_str};
+    use durer_scene::{Antialias, Fog, LightKind, Pattern};
+
+    #[track_caller]
+    fn assert_loads(text: &str) {
+        if let Err(diagnostics) = load_str(text, "example", &NoAssets, &Limits::default()) {
+            panic!("{diagnostics}");
+        }
+    }
+
+    #[test]
+    fn the_examples_of_the_reference_load() {
+        let each = |kinds: Vec<KindAbout>, around: &dyn Fn(&str) -> String| {
+            // Images need a file.
+            let examples = kinds.iter().filter(|kind| kind.word != "image");
+            examples.for_each(|kind| assert_loads(&around(kind.example)));
+        };
+        each(objects::kinds(), &|example| format!("objects:\n  - {example}"));
+        each(LightKind::kinds(), &|example| format!("lights:\n  - {example}"));
+        each(Pattern::kinds(), &|example| format!("textures:\n  a:\n    {example}"));
+        each(Antialias::kinds(), &|example| format!("render:\n  {example}"));
+        each(Fog::kinds(), &|example| example.to_owned());
+        for (_, _, example) in transform::STEPS {
+            assert_loads(&format!("objects:\n  - sphere:\n      transform:\n        - {example}"));
+        }
+        for block in reference_markdown().split("```yaml\ncamera").skip(1) {
+            assert_loads(&format!("camera{}", block.split("```").next().unwrap_or_default()));
+        }
+    }
+
+    #[test]
+    fn schema_defaults_are_json_values() {
+        let schema = json_schema();
+        assert_eq!(schema["properties"]["picture"]["properties"]["width"]["default"], 640);
+        assert_eq!(schema["$defs"]["material"]["properties"]["shininess"]["default"], 40);
+    }
+}

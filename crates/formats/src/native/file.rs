@@ -1,0 +1,189 @@
+//! A whole scene file: its top-level fields, and names for textures and materials.
+
+use super::decode::{Decoder, Fields};
+use super::record::{FieldAbout, Record, fields, record};
+use super::tree::{Node, NodeKind};
+use super::value::Value;
+use super::write::{FieldsOut, Out, Writer};
+use durer_math::Rgb;
+use durer_scene::{
+    Background, Camera, Fog, Light, Material, MaterialId, Object, Picture, RenderSettings, Scene, Texture, TextureId,
+};
+use serde_json::{Value as Json, json};
+use std::rc::Rc;
+
+/// The top-level fields. Textures and materials stand before the objects that use them, whatever their order in the
+/// file: their names have been entered before anything is read.
+pub(crate) struct SceneFile {
+    camera: Option<Camera>,
+    picture: Picture,
+    render: RenderSettings,
+    background: Background,
+    ambient: Rgb,
+    fog: Option<Fog>,
+    lights: Vec<Light>,
+    textures: Textures,
+    materials: Materials,
+    objects: Vec<Object>,
+}
+
+record!(SceneFile {
+    camera: Option<Camera> = None => "Where the eye is; without it, all bounded objects are framed.";
+    picture: Picture = Picture::default() => "Size and encoding of the picture.";
+    render: RenderSettings = RenderSettings::default() => "How the picture is computed.";
+    background: Background = Background::default() => "What rays that leave the scene see: a color, or `{bottom: color, top: color}`.";
+    ambient: Rgb = Rgb::WHITE => "Ambient light, from everywhere: multiplies the `ambient` of each material.";
+    fog: Option<Fog> = None => "Fog.";
+    lights: Vec<Light> = Light::default_lights() => "The lights; without this field two default lights, with `[]` none.";
+    textures: Textures = Textures::default() => "Textures, by name.";
+    materials: Materials = Materials::default() => "Materials, by name.";
+    objects: Vec<Object> = Vec::new() => "What is to be seen.";
+});
+
+/// Reads a scene into `cx.scene`.
+pub(crate) fn read(root: &Rc<Node>, cx: &mut Decoder<'_>) {
+    let Some(entries) = entries_of(root) else {
+        let help = "a scene file begins with fields such as `camera:` and `objects:`";
+        let _: Option<()> = cx.expected_noun(root, "the fields of a scene", Some(help.to_owned()));
+        return;
+    };
+    enter_names(root, cx);
+    // Sections with nothing in them are as good as absent, but for `lights`, where absent and none differ.
+    let given = |(key, value): &&(Rc<Node>, Rc<Node>)| {
+        !value.is_null() || !matches!(key.text(), Some("objects" | "materials" | "textures"))
+    };
+    let kept = NodeKind::Mapping(entries.iter().filter(given).cloned().collect());
+    let root = Rc::new(Node { span: root.span, kind: kept });
+    let Some(mut from) = Fields::of_record(&root, cx, "scene") else { return };
+    let file = SceneFile::read(&mut from);
+    from.finish();
+    let SceneFile { camera, picture, render, background, ambient, fog, lights, objects, .. } = file;
+    cx.scene =
+        Scene { camera, picture, render, background, ambient, fog, lights, objects, ..std::mem::take(&mut cx.scene) };
+}
+
+fn entries_of(node: &Node) -> Option<&[(Rc<Node>, Rc<Node>)]> {
+    match &node.kind {
+        NodeKind::Mapping(entries) => Some(entries),
+        NodeKind::Scalar { .. } | NodeKind::Sequence(_) => None,
+    }
+}
+
+/// Gives the named textures and materials their ids, in the order of the file.
+fn enter_names(root: &Node, cx: &mut Decoder<'_>) {
+    let section = |name| root.get(name).and_then(|(_, section)| entries_of(section)).unwrap_or(&[]);
+    for (key, node) in section("textures") {
+        let name = key.text().unwrap_or_default().to_owned();
+        cx.texture_names.insert(name.clone(), cx.scene.textures.len() as u32);
+        cx.scene.textures.push(Texture { name: Some(name), ..Texture::stand_in() });
+        cx.texture_nodes.push(Rc::clone(node));
+    }
+    for (key, node) in section("materials") {
+        let name = key.text().unwrap_or_default().to_owned();
+        cx.material_names.insert(name.clone(), cx.scene.materials.len() as u32);
+        cx.scene.materials.push(Material { name: Some(name), ..Material::default() });
+        cx.material_nodes.push(Rc::clone(node));
+    }
+}
+
+/// The named textures; they live in the scene, so this only says whether there are any.
+#[derive(Clone, Default, PartialEq)]
+struct Textures(Vec<TextureId>);
+
+impl Value for Textures {
+    fn noun() -> String {
+        "textures by name".to_owned()
+    }
+    fn stand_in() -> Self {
+        Textures::default()
+    }
+    fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
+        let Some(entries) = entries_of(node) else { return cx.expected::<Self>(node) };
+        for (at, (_, value)) in entries.iter().enumerate() {
+            if let Some(texture) = Texture::decode(value, cx) {
+                let name = cx.scene.textures[at].name.take();
+                cx.scene.textures[at] = Texture { name, ..texture };
+            }
+        }
+        Some(Textures::default())
+    }
+    fn encode(&self, writer: &Writer<'_>) -> Out {
+        let one = |id: &TextureId| {
+            let scene = writer.scene?;
+            let name = writer.texture_names.get(id.0 as usize)?.clone()?;
+            Some((name, scene.textures.get(id.0 as usize)?.encode(writer)))
+        };
+        Out::Fields(self.0.iter().filter_map(one).collect())
+    }
+    fn schema() -> Json {
+        json!({ "type": ["object", "null"], "additionalProperties": Texture::schema() })
+    }
+    fn advice(_: &Node) -> Option<String> {
+        Some("for example `textures: {tiles: {checker: {size: 0.5}}}`".to_owned())
+    }
+}
+
+/// The named materials; they live in the scene.
+#[derive(Clone, Default, PartialEq)]
+struct Materials(Vec<MaterialId>);
+
+impl Value for Materials {
+    fn noun() -> String {
+        "materials by name".to_owned()
+    }
+    fn stand_in() -> Self {
+        Materials::default()
+    }
+    fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
+        let Some(entries) = entries_of(node) else { return cx.expected::<Self>(node) };
+        for (at, (_, value)) in entries.iter().enumerate() {
+            if let Some(material) = Material::decode(value, cx) {
+                let name = cx.scene.materials[at].name.take();
+                cx.scene.materials[at] = Material { name, ..material };
+            }
+        }
+        Some(Materials::default())
+    }
+    fn encode(&self, writer: &Writer<'_>) -> Out {
+        let one = |id: &MaterialId| {
+            let scene = writer.scene?;
+            let name = writer.material_names.get(id.0 as usize)?.clone()?;
+            Some((name, scene.materials.get(id.0 as usize)?.encode(writer)))
+        };
+        Out::Fields(self.0.iter().filter_map(one).collect())
+    }
+    fn schema() -> Json {
+        json!({ "type": ["object", "null"], "additionalProperties": Material::schema() })
+    }
+    fn advice(_: &Node) -> Option<String> {
+        Some("for example `materials: {glass: {transparency: 0.9, ior: 1.5}}`".to_owned())
+    }
+}
+
+/// Writes a scene.
+pub(crate) fn write(scene: &Scene) -> String {
+    let (texture_names, material_names) = super::names::choose(scene);
+    let writer = Writer { scene: Some(scene), texture_names, material_names };
+    let named = |names: &[Option<String>]| {
+        let ids = (0..names.len() as u32).filter(|id| names[*id as usize].is_some());
+        ids.collect::<Vec<u32>>()
+    };
+    let file = SceneFile {
+        camera: scene.camera.clone(),
+        picture: scene.picture,
+        render: scene.render,
+        background: scene.background,
+        ambient: scene.ambient,
+        fog: scene.fog,
+        lights: scene.lights.clone(),
+        textures: Textures(named(&writer.texture_names).into_iter().map(TextureId).collect()),
+        materials: Materials(named(&writer.material_names).into_iter().map(MaterialId).collect()),
+        objects: scene.objects.clone(),
+    };
+    let mut out = FieldsOut::new(&writer);
+    file.write(&mut out);
+    match out.into_fields() {
+        Out::Fields(fields) if fields.is_empty() => "{}\n".to_owned(),
+        fields => fields.to_document(),
+    }
+}

@@ -1,0 +1,138 @@
+//! Settings of the whole picture.
+
+use super::decode::{Decoder, Fields};
+use super::record::{
+    Choice, FieldAbout, KindAbout, Record, choice, choice_value, encode_choice, fields, record, record_value,
+};
+use super::tree::{Node, NodeKind};
+use super::value::{Value, number_text};
+use super::write::{FieldsOut, Out, Writer};
+use durer_imaging::Transfer;
+use durer_math::Rgb;
+use durer_scene::{Antialias, Background, Fog, Picture, RenderSettings};
+use serde_json::{Value as Json, json};
+use std::rc::Rc;
+
+record!(Picture {
+    width: u32 = Picture::default().width => "Width in pixels.";
+    height: u32 = Picture::default().height => "Height in pixels.";
+    transfer: Transfer = Transfer::Srgb => "How linear light becomes the numbers of a file.";
+});
+record_value!(Picture, "picture", Picture::default());
+
+choice! { Transfer, "transfer";
+    Srgb "srgb": "Encoded for screens.", example "transfer: srgb", {}
+    Linear "linear": "The numbers as they are.", example "transfer: linear", {}
+}
+choice_value!(Transfer, Transfer::Srgb);
+
+record!(RenderSettings {
+    max_depth: u32 = RenderSettings::default().max_depth
+        => "Longest chain of rays: the eye's ray has depth 1, and rays deeper than this are black; 1 to 100.";
+    min_weight: f32 = 0.0 => "Rays that count less than this in the pixel are not traced; 0 traces all.";
+    antialias: Antialias = Antialias::default() => "Where in a pixel rays are sent, and how many.";
+});
+record_value!(RenderSettings, "render", RenderSettings::default());
+
+choice! { Antialias, "antialias";
+    None "none": "One ray through the middle of each pixel.", example "antialias: none", {}
+    Grid "grid": "n × n rays through the middles of a grid of cells; `{grid: 3}` for short.", example "antialias: {grid: 3}",
+    {
+        n: u32 = 3 => "Cells along each side, 1 to 64.";
+    }
+    Recursive "recursive": "2 × 2 rays; where they differ, each quarter is treated in the same way again.",
+    example "antialias: {recursive: {threshold: 0.1, max_depth: 3}}",
+    {
+        threshold: f32 = 0.3 => "Largest difference that is let pass, summed over red, green and blue.";
+        max_depth: u32 = 5 => "How often a pixel may be divided again, 0 to 10.";
+    }
+}
+
+/// A choice like others, but for the short `grid: 3`.
+impl Value for Antialias {
+    fn noun() -> String {
+        "`none`, `grid: 3` or `recursive`".to_owned()
+    }
+    fn stand_in() -> Self {
+        Antialias::None
+    }
+    fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
+        if let (Some((_, n)), NodeKind::Mapping(entries)) = (node.get("grid"), &node.kind)
+            && entries.len() == 1
+            && (number_text(n).is_some() || matches!(n.kind, NodeKind::Scalar { .. }) && !n.is_null())
+        {
+            return u32::decode(n, cx).map(|n| Antialias::Grid { n });
+        }
+        if number_text(node).is_some() || matches!(node.text(), Some("true" | "false")) {
+            return cx.expected_noun(node, &Self::noun(), Some("for example `antialias: {grid: 3}`".to_owned()));
+        }
+        super::record::decode_choice(node, cx)
+    }
+    fn encode(&self, writer: &Writer<'_>) -> Out {
+        match self {
+            Antialias::Grid { n } => Out::Fields(vec![("grid".to_owned(), n.encode(writer))]),
+            Antialias::None | Antialias::Recursive { .. } => encode_choice(self, writer),
+        }
+    }
+    fn schema() -> Json {
+        let mut schema = super::schema::choice(&Antialias::kinds());
+        if let Some(grid) = schema.pointer_mut("/anyOf/1/properties/grid") {
+            *grid = json!({ "description": grid["description"], "anyOf": [{ "type": "integer", "minimum": 1, "maximum": 64 }, grid.clone()] });
+        }
+        schema
+    }
+}
+
+/// `{bottom: …, top: …}`
+struct Sky {
+    bottom: Rgb,
+    top: Rgb,
+}
+
+record!(Sky {
+    bottom: Rgb => "Seen straight down.";
+    top: Rgb => "Seen straight up.";
+});
+
+impl Value for Background {
+    fn noun() -> String {
+        "a color, or {bottom: color, top: color}".to_owned()
+    }
+    fn stand_in() -> Self {
+        Background::default()
+    }
+    fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
+        match &node.kind {
+            NodeKind::Mapping(_) => super::record::decode_record("background", node, cx)
+                .map(|Sky { bottom, top }| Background::Gradient { bottom, top }),
+            NodeKind::Scalar { .. } if node.is_null() => cx.expected::<Self>(node),
+            NodeKind::Scalar { .. } | NodeKind::Sequence(_) => Rgb::decode(node, cx).map(Background::Color),
+        }
+    }
+    fn encode(&self, writer: &Writer<'_>) -> Out {
+        match *self {
+            Background::Color(color) => color.encode(writer),
+            Background::Gradient { bottom, top } => super::record::encode_record(&Sky { bottom, top }, writer),
+        }
+    }
+    fn schema() -> Json {
+        json!({ "anyOf": [Rgb::schema(), super::schema::record(&Sky::about())] })
+    }
+}
+
+choice! { Fog, "fog";
+    Exponential "exponential": "Thickens evenly, as real fog does.",
+    example "fog: {exponential: {color: lightgray, distance: 50}}",
+    {
+        color: Rgb => "Its color.";
+        distance: f64 => "The length at which 1/e (37 %) of the light is left.";
+    }
+    Linear "linear": "Clear up to one distance, nothing but fog from another on.",
+    example "fog: {linear: {color: lightgray, start: 10, end: 80}}",
+    {
+        color: Rgb => "Its color.";
+        start: f64 => "Up to here the view is clear.";
+        end: f64 => "From here on there is only fog.";
+    }
+}
+choice_value!(Fog, Fog::Exponential { color: Rgb::BLACK, distance: 1.0 });

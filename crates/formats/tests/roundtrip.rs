@@ -1,0 +1,350 @@
+//! What is written reads back as the same scene, to the bit.
+
+use durer_formats::{AssetError, Assets, Limits, NoAssets, load_str, to_yaml};
+use durer_imaging::{DecodeLimits, Transfer, decode};
+use durer_math::{DVec2, DVec3, Rgb};
+use durer_scene::*;
+use proptest::collection::vec;
+use proptest::prelude::*;
+use std::sync::Arc;
+
+/// One picture for all names.
+struct OnePicture;
+
+impl Assets for OnePicture {
+    fn read(&self, _: &str) -> Result<Vec<u8>, AssetError> {
+        let mut bytes = b"PF\n2 1\n-1.0\n".to_vec();
+        (0..6).for_each(|i| bytes.extend((i as f32 / 8.0).to_le_bytes()));
+        Ok(bytes)
+    }
+}
+
+#[track_caller]
+fn read(text: &str) -> Scene {
+    match load_str(text, "written.yaml", &OnePicture, &Limits::default()) {
+        Ok(loaded) => loaded.scene.into_scene(),
+        Err(diagnostics) => panic!("{diagnostics}\n{text}"),
+    }
+}
+
+fn number() -> BoxedStrategy<f64> {
+    prop_oneof![
+        -9.0..9.0,
+        (-20_i32..20).prop_map(f64::from),
+        any::<f64>().prop_map(|x| if x.is_finite() { x % 1e11 } else { 0.5 })
+    ]
+    .boxed()
+}
+
+fn size() -> impl Strategy<Value = f64> {
+    prop_oneof![1e-3..10.0, (1_u32..9).prop_map(f64::from)]
+}
+
+fn point() -> impl Strategy<Value = DVec3> {
+    [number(), number(), number()].prop_map(DVec3::from_array)
+}
+
+fn direction() -> impl Strategy<Value = DVec3> {
+    (0.1..9.0, number(), number()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
+}
+
+fn part() -> impl Strategy<Value = f32> {
+    prop_oneof![0_f32..=1.0, Just(0.0), Just(1.0), Just(0.5)]
+}
+
+fn color() -> BoxedStrategy<Rgb> {
+    prop_oneof![[part(), part(), part()].prop_map(Rgb::from), part().prop_map(Rgb::gray)].boxed()
+}
+
+fn text() -> BoxedStrategy<String> {
+    let odd = prop::sample::select(vec![
+        "", "red", "3", "~", "null", "yes", "- a", "a: b", "#fff", "<<", "*a", "ä", " x ", "'\"",
+    ]);
+    prop_oneof![odd.prop_map(str::to_owned), vec(any::<char>(), 0..12).prop_map(|c| c.into_iter().collect())].boxed()
+}
+
+fn transform() -> BoxedStrategy<Transform> {
+    let factor = || prop_oneof![0.5..2.0, -2.0..-0.5];
+    let small = || -50.0..50.0;
+    let step = prop_oneof![
+        point().prop_map(|by| TransformStep::Translate(by % 1e3)),
+        factor().prop_map(|by| TransformStep::Scale(DVec3::splat(by))),
+        [factor(), factor(), factor()].prop_map(|by| TransformStep::Scale(by.into())),
+        (prop::sample::select(vec![DVec3::X, DVec3::Y, DVec3::Z]), small())
+            .prop_map(|(axis, degrees)| TransformStep::Rotate { axis, degrees }),
+        (direction(), small()).prop_map(|(axis, degrees)| TransformStep::Rotate { axis, degrees }),
+        [small(), small(), small()].prop_map(|[a, b, c]| TransformStep::Matrix([
+            [1.0, a / 99.0, 0.0, a],
+            [0.0, 2.0, b / 99.0, b],
+            [0.0, 0.0, 1.5, c]
+        ])),
+    ];
+    vec(step, 0..4).prop_map(|steps| Transform { steps }).boxed()
+}
+
+fn shape() -> BoxedStrategy<Shape> {
+    let beside = |a: DVec3| if a.length() < 1e6 { a } else { a / 1e6 };
+    let near = move || point().prop_map(beside);
+    prop_oneof![
+        (point(), direction()).prop_map(|(point, normal)| Shape::Plane { point, normal }),
+        (point(), size()).prop_map(|(center, radius)| Shape::Sphere { center, radius }),
+        (near(), [size(), size(), size()]).prop_map(|(min, by)| Shape::Box { min, max: min + DVec3::from_array(by) }),
+        (near(), direction(), size(), any::<bool>()).prop_map(|(base, by, radius, open)| Shape::Cylinder {
+            base,
+            top: base + by,
+            radius,
+            open
+        }),
+        (near(), direction(), size(), size(), any::<bool>()).prop_map(|(base, by, base_radius, top_radius, open)| {
+            Shape::Cone { base, top: base + by, base_radius, top_radius, open }
+        }),
+        (point(), direction(), size(), 0.0..0.9).prop_map(|(center, normal, radius, hole)| Shape::Disc {
+            center,
+            normal,
+            radius,
+            inner_radius: hole * radius
+        }),
+        (point(), size(), size())
+            .prop_map(|(corner, a, b)| Shape::Rectangle { corner, edges: [DVec3::X * a, DVec3::new(a, b, 0.1)] }),
+        (near(), size(), size(), any::<bool>()).prop_map(|(a, x, y, uvs)| Shape::Triangle {
+            vertices: [a, a + DVec3::X * x, a + DVec3::Y * y],
+            uvs: uvs.then_some([DVec2::ZERO, DVec2::new(x, 0.0), DVec2::new(0.0, y)]),
+        }),
+        (point(), direction(), size(), 0.1..0.9).prop_map(|(center, axis, radius, tube)| Shape::Torus {
+            center,
+            axis,
+            radius,
+            tube_radius: tube * radius
+        }),
+    ]
+    .boxed()
+}
+
+fn object(materials: u32) -> BoxedStrategy<Object> {
+    let material = move || prop::option::of((0..materials).prop_map(MaterialId));
+    let placed = move |kind| (prop::option::of(text()), material(), transform(), kind);
+    let make = |(name, material, transform, kind)| Object { name, material, transform, kind };
+    let leaf = placed(shape().prop_map(ObjectKind::Shape).boxed()).prop_map(make);
+    leaf.prop_recursive(3, 12, 4, move |inner| {
+        placed(vec(inner, 0..4).prop_map(ObjectKind::Group).boxed()).prop_map(make)
+    })
+    .boxed()
+}
+
+/// Only textures before this one, so that none is made of itself.
+fn paint(before: u32) -> BoxedStrategy<Paint> {
+    let texture =
+        move |id: u32| if before > 0 { Paint::Texture(TextureId(id % before)) } else { Paint::Color(Rgb::WHITE) };
+    prop_oneof![color().prop_map(Paint::Color), any::<u32>().prop_map(texture)].boxed()
+}
+
+fn pattern(before: u32) -> BoxedStrategy<Pattern> {
+    let two = || [paint(before), paint(before)];
+    let many = || vec(paint(before), 2..5);
+    let space = || prop::sample::select(vec![Space::Object, Space::Uv]);
+    let wrap = || prop::sample::select(vec![Wrap::Repeat, Wrap::Clamp, Wrap::Mirror]);
+    let mapping = prop_oneof![
+        prop::sample::select(vec![Mapping::Uv, Mapping::Planar, Mapping::Spherical]),
+        size().prop_map(|half_height| Mapping::Cylindrical { half_height })
+    ];
+    let filter = prop::sample::select(vec![Filter::Nearest, Filter::Bilinear]);
+    let encoding = prop::sample::select(vec![Encoding::Srgb, Encoding::Linear]);
+    prop_oneof![
+        (two(), size(), space()).prop_map(|(colors, size, space)| Pattern::Checker { colors, size, space }),
+        (many(), direction(), size(), space()).prop_map(|(colors, axis, width, space)| Pattern::Stripes {
+            colors,
+            axis,
+            width,
+            space
+        }),
+        (many(), size(), space()).prop_map(|(colors, width, space)| Pattern::Rings { colors, width, space }),
+        (many(), direction(), size(), wrap(), space())
+            .prop_map(|(colors, axis, length, wrap, space)| Pattern::Gradient { colors, axis, length, wrap, space }),
+        (mapping, wrap(), filter, encoding).prop_map(|(mapping, wrap, filter, encoding)| {
+            Pattern::Image(ImageTexture { image: ImageId(0), mapping, wrap, filter, encoding })
+        }),
+        (two(), size(), 1_u32..=16).prop_map(|(colors, size, octaves)| Pattern::Noise { colors, size, octaves }),
+        (two(), size(), size(), 1_u32..=16).prop_map(|(colors, size, turbulence, octaves)| Pattern::Marble {
+            colors,
+            size,
+            turbulence,
+            octaves
+        }),
+        (two(), size(), size(), 1_u32..=16).prop_map(|(colors, size, turbulence, octaves)| Pattern::Wood {
+            colors,
+            size,
+            turbulence,
+            octaves
+        }),
+    ]
+    .boxed()
+}
+
+fn material() -> BoxedStrategy<Material> {
+    let attenuation = ([0.1_f32..1.0, 0.1_f32..1.0, 0.1_f32..1.0], size())
+        .prop_map(|(color, distance)| Attenuation { color: color.into(), distance });
+    let parts = (paint(3), part(), part(), color(), 0_f32..500.0);
+    let clear = (color(), color(), prop::option::of(0.5..2.5), any::<bool>(), prop::option::of(attenuation));
+    (parts, clear)
+        .prop_map(|((color, ambient, diffuse, specular, shininess), clear)| {
+            let (reflection, transparency, ior, fresnel, attenuation) = clear;
+            let name = None;
+            Material {
+                name,
+                color,
+                ambient,
+                diffuse,
+                specular,
+                shininess,
+                reflection,
+                transparency,
+                ior,
+                fresnel,
+                attenuation,
+            }
+        })
+        .boxed()
+}
+
+fn light() -> BoxedStrategy<Light> {
+    let falloff = || prop::sample::select(vec![Falloff::None, Falloff::InverseSquare]);
+    let near = || point().prop_map(|p| p % 1e3);
+    let kind = prop_oneof![
+        (point(), falloff()).prop_map(|(position, falloff)| LightKind::Point { position, falloff }),
+        (near(), direction(), 1.0..180.0, prop_oneof![Just(1.0), 0.0..1.0], falloff()).prop_map(
+            |(position, by, edge, inner, falloff)| LightKind::Spot {
+                position,
+                target: position + by,
+                half_angle_degrees: edge,
+                inner_half_angle_degrees: edge * inner,
+                falloff,
+            }
+        ),
+        direction().prop_map(|direction| LightKind::Directional { direction }),
+    ];
+    (prop::option::of(text()), color(), 0_f32..9.0, kind)
+        .prop_map(|(name, color, intensity, kind)| Light { name, color, intensity, kind })
+        .boxed()
+}
+
+fn camera() -> BoxedStrategy<Camera> {
+    let projection = prop_oneof![
+        prop_oneof![Just(50.0), 5.0..170.0].prop_map(|degrees| Projection::FieldOfView { degrees }),
+        (size(), size()).prop_map(|(distance, half_height)| Projection::ImagePlane { distance, half_height }),
+        size().prop_map(|height| Projection::Orthographic { height }),
+    ];
+    (point().prop_map(|p| p % 1e3), size(), projection)
+        .prop_map(|(position, ahead, projection)| Camera {
+            position,
+            look_at: position + DVec3::new(0.5, 0.5, -ahead),
+            up: DVec3::new(0.0, 1.0, 0.25),
+            projection,
+        })
+        .boxed()
+}
+
+fn settings() -> BoxedStrategy<Scene> {
+    let antialias = prop_oneof![
+        Just(Antialias::None),
+        (1_u32..=64).prop_map(|n| Antialias::Grid { n }),
+        (part(), 0_u32..=10).prop_map(|(threshold, max_depth)| Antialias::Recursive { threshold, max_depth }),
+    ];
+    let picture = (1_u32..9999, 1_u32..9999, prop::sample::select(vec![Transfer::Srgb, Transfer::Linear]))
+        .prop_map(|(width, height, transfer)| Picture { width, height, transfer });
+    let render = (1_u32..=100, part(), antialias).prop_map(|(max_depth, min_weight, antialias)| RenderSettings {
+        max_depth,
+        min_weight,
+        antialias,
+    });
+    let background = prop_oneof![
+        color().prop_map(Background::Color),
+        (color(), color()).prop_map(|(bottom, top)| Background::Gradient { bottom, top })
+    ];
+    let fog = prop_oneof![
+        (color(), size()).prop_map(|(color, distance)| Fog::Exponential { color, distance }),
+        (color(), size(), size()).prop_map(|(color, start, by)| Fog::Linear { color, start, end: start + by }),
+    ];
+    let lights = prop_oneof![Just(Light::default_lights()), vec(light(), 0..4)];
+    (prop::option::of(camera()), picture, render, background, color(), prop::option::of(fog), lights)
+        .prop_map(|(camera, picture, render, background, ambient, fog, lights)| Scene {
+            camera,
+            picture,
+            render,
+            background,
+            ambient,
+            fog,
+            lights,
+            ..Scene::default()
+        })
+        .boxed()
+}
+
+/// Scenes with three textures and three materials.
+fn scene() -> BoxedStrategy<Scene> {
+    let texture = |before| (transform(), pattern(before));
+    let textures = (texture(0), texture(1), texture(2));
+    let materials = [material(), material(), material()];
+    (settings(), textures, materials, vec(object(3), 0..4), [text(), text(), text()])
+        .prop_map(|(settings, (a, b, c), materials, objects, names)| {
+            let uses_image = [&a, &b, &c].iter().any(|(_, pattern)| matches!(pattern, Pattern::Image(_)));
+            let bitmap = || Arc::new(decode(&OnePicture.read("").unwrap(), &DecodeLimits::default()).unwrap());
+            let image = uses_image.then(|| ImageAsset { file: "a: picture.pfm".to_owned(), bitmap: bitmap() });
+            let name = |at: usize| Some(if at == 0 { names[0].clone() } else { format!("{} {at}", names[at]) });
+            let name = |at| name(at).map(|name| if name == "<<" { String::new() } else { name });
+            let textures = [a, b, c].into_iter().enumerate();
+            Scene {
+                images: image.into_iter().collect(),
+                textures: textures
+                    .map(|(at, (transform, pattern))| Texture { name: name(at), transform, pattern })
+                    .collect(),
+                materials: materials.into_iter().enumerate().map(|(at, m)| Material { name: name(at), ..m }).collect(),
+                objects,
+                ..settings
+            }
+        })
+        .boxed()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn named_scenes_come_back_equal(scene in scene()) {
+        prop_assert!(scene.clone().check().is_ok(), "{:?}", scene.check());
+        let text = to_yaml(&scene);
+        prop_assert_eq!(read(&text), scene, "{}", text);
+    }
+
+    #[test]
+    fn unnamed_scenes_come_back_stable(mut scene in scene(), keep in 0_usize..4) {
+        scene.textures.iter_mut().skip(keep).for_each(|texture| texture.name = None);
+        scene.materials.iter_mut().skip(keep).for_each(|material| material.name = None);
+        let text = to_yaml(&scene);
+        let once = read(&text);
+        let again = to_yaml(&once);
+        prop_assert_eq!(read(&again), once, "{}\n{}", text, again);
+    }
+}
+
+#[test]
+fn every_field_comes_back() {
+    let scene = read(include_str!("every_field.yaml"));
+    let text = to_yaml(&scene);
+    assert_eq!(read(&text), scene, "{text}");
+    assert!(text.lines().all(|line| line.len() <= 130), "{text}");
+}
+
+#[test]
+fn empty_scenes_come_back() {
+    assert_eq!(to_yaml(&Scene::default()), "{}\n");
+    assert_eq!(read("{}"), Scene::default());
+    let dark = Scene { lights: Vec::new(), ..Scene::default() };
+    assert_eq!(read(&to_yaml(&dark)), dark);
+}
+
+#[test]
+fn json_is_read() {
+    let text = r#"{"objects": [{"sphere": {"radius": 2, "material": {"color": "\u0072ed"}}}]}"#;
+    let loaded = load_str(text, "scene.json", &NoAssets, &Limits::default()).unwrap();
+    assert_eq!(loaded.scene.scene().materials[0].color, Paint::Color(Rgb::new(1.0, 0.0, 0.0)));
+}

@@ -1,0 +1,135 @@
+//! Objects: their shapes, transforms and materials.
+
+use super::Step;
+use super::values::Checker;
+use crate::{MaterialId, Object, ObjectKind, Shape};
+use durer_math::{DAffine3, DVec2, DVec3};
+
+/// How deep groups may nest.
+const DEEPEST: usize = 64;
+
+pub(super) fn check(c: &mut Checker<'_>) {
+    let objects = &c.scene.objects;
+    c.field("objects", |c| all(c, objects, DAffine3::IDENTITY, 1));
+}
+
+fn all(c: &mut Checker<'_>, objects: &[Object], outer: DAffine3, depth: usize) {
+    for (at, one) in objects.iter().enumerate() {
+        c.at(Step::Index(at), |c| object(c, one, outer, depth));
+    }
+}
+
+fn object(c: &mut Checker<'_>, object: &Object, outer: DAffine3, depth: usize) {
+    let word = match &object.kind {
+        ObjectKind::Shape(shape) => shape.word(),
+        ObjectKind::Group(_) => "group",
+    };
+    c.field(word, |c| {
+        if depth > DEEPEST {
+            c.problem(format!("groups may nest at most {DEEPEST} deep"));
+            return;
+        }
+        if let Some(MaterialId(id)) = object.material {
+            c.require((id as usize) < c.scene.materials.len(), "material", format!("there is no material {id}"));
+        }
+        let world_from_object = c.transform(&object.transform, outer);
+        match &object.kind {
+            ObjectKind::Shape(shape) => self::shape(c, shape),
+            ObjectKind::Group(members) => c.field("objects", |c| all(c, members, world_from_object, depth + 1)),
+        }
+    });
+}
+
+fn shape(c: &mut Checker<'_>, shape: &Shape) {
+    match *shape {
+        Shape::Plane { point, normal } => _ = c.point("point", point) & c.direction("normal", normal),
+        Shape::Sphere { center, radius } => _ = c.point("center", center) & c.size("radius", radius),
+        Shape::Box { min, max } => {
+            if c.point("min", min) & c.point("max", max) {
+                cuboid(c, max - min);
+            }
+        }
+        Shape::Cylinder { base, top, radius, open: _ } => {
+            ends(c, base, top);
+            c.size("radius", radius);
+        }
+        Shape::Cone { base, top, base_radius, top_radius, open: _ } => {
+            ends(c, base, top);
+            let sizes = c.size_or_zero("radius", base_radius) & c.size_or_zero("top_radius", top_radius);
+            if sizes && base_radius == 0.0 && top_radius == 0.0 {
+                c.field("radius", |c| c.problem("radius and top_radius must not both be 0"));
+            }
+        }
+        Shape::Disc { center, normal, radius, inner_radius } => {
+            c.point("center", center);
+            c.direction("normal", normal);
+            let sizes = c.size("radius", radius) & c.size_or_zero("inner_radius", inner_radius);
+            if sizes {
+                c.require(inner_radius < radius, "inner_radius", "inner_radius must be less than radius");
+            }
+        }
+        Shape::Rectangle { corner, edges } => {
+            c.point("corner", corner);
+            c.field("edges", |c| {
+                let mut fine = true;
+                for (at, edge) in edges.into_iter().enumerate() {
+                    fine &= c.at(Step::Index(at), |c| c.direction_here("an edge", edge));
+                }
+                if fine && is_flat(edges[0], edges[1]) {
+                    c.problem("the two edges must point in different directions");
+                }
+            });
+        }
+        Shape::Triangle { vertices, uvs } => {
+            triangle(c, vertices);
+            let usable = |uv: &DVec2| uv.is_finite() && uv.abs().max_element() <= 1e6;
+            let fine = uvs.is_none_or(|uvs| uvs.iter().all(usable));
+            c.require(fine, "uvs", "texture coordinates must be at most 1e6 in size");
+        }
+        Shape::Torus { center, axis, radius, tube_radius } => {
+            c.point("center", center);
+            c.direction("axis", axis);
+            let sizes = c.size("radius", radius) & c.size("tube_radius", tube_radius);
+            if sizes {
+                c.require(tube_radius < radius, "tube_radius", "tube_radius must be less than radius");
+            }
+        }
+    }
+}
+
+fn cuboid(c: &mut Checker<'_>, extent: DVec3) {
+    let axes = [("x", extent.x), ("y", extent.y), ("z", extent.z)];
+    for (axis, extent) in axes {
+        if extent < 1e-9 {
+            let message = format!("{axis} of max must be greater than {axis} of min");
+            let help = "for something flat, use a rectangle";
+            c.field("max", |c| c.problem_with_help(message, if extent == 0.0 { help } else { "swap the two" }));
+            return;
+        }
+    }
+}
+
+fn ends(c: &mut Checker<'_>, base: DVec3, top: DVec3) {
+    if c.point("base", base) & c.point("top", top) {
+        c.apart(("top", top), ("base", base));
+    }
+}
+
+fn triangle(c: &mut Checker<'_>, vertices: [DVec3; 3]) {
+    c.field("vertices", |c| {
+        let mut fine = true;
+        for (at, vertex) in vertices.into_iter().enumerate() {
+            fine &= c.at(Step::Index(at), |c| c.point_here("a vertex", vertex));
+        }
+        let [a, b, d] = vertices;
+        if fine && is_flat(b - a, d - a) {
+            c.problem("the three vertices must not lie on one line");
+        }
+    });
+}
+
+/// True if the two span no area to speak of.
+fn is_flat(a: DVec3, b: DVec3) -> bool {
+    let (a_length, b_length) = (a.length(), b.length());
+    a_length < 1e-9 || b_length < 1e-9 || a.cross(b).length() <= 1e-12 * a_length * b_length
+}

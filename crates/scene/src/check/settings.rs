@@ -1,0 +1,140 @@
+//! Camera, picture, rendering, background, fog and lights.
+
+use super::Step;
+use super::values::Checker;
+use crate::{Antialias, Background, Camera, Fog, Light, LightKind, Projection};
+
+/// The most pixels of a picture.
+const MOST_PIXELS: u64 = 400_000_000;
+
+pub(super) fn check(c: &mut Checker<'_>) {
+    let scene = c.scene;
+    if let Some(eye) = &scene.camera {
+        c.field("camera", |c| camera(c, eye));
+    }
+    c.field("picture", picture);
+    c.field("render", render);
+    match scene.background {
+        Background::Color(color) => _ = c.light("background", color),
+        Background::Gradient { bottom, top } => {
+            c.field("background", |c| c.light("bottom", bottom) & c.light("top", top));
+        }
+    }
+    c.light("ambient", scene.ambient);
+    if let Some(mist) = scene.fog {
+        c.field("fog", |c| fog(c, mist));
+    }
+    c.field("lights", |c| {
+        for (at, one) in scene.lights.iter().enumerate() {
+            c.at(Step::Index(at), |c| light(c, one));
+        }
+    });
+}
+
+fn camera(c: &mut Checker<'_>, camera: &Camera) {
+    let &Camera { position, look_at, up, projection } = camera;
+    let points = c.point("position", position) & c.point("look_at", look_at);
+    let up_is_fine = c.direction("up", up);
+    if points && c.apart(("look_at", look_at), ("position", position)) && up_is_fine {
+        let view = (look_at - position).normalize();
+        if view.cross(up.normalize()).length() < 1e-6 {
+            let help = "for a view straight down or up, choose for example `up: [0, 0, -1]`";
+            c.field("up", |c| c.problem_with_help("up must not be parallel to the view", help));
+        }
+    }
+    match projection {
+        Projection::FieldOfView { degrees } => {
+            let fine = degrees > 1e-6 && degrees < 179.999_999;
+            c.require(fine, "fov", format!("fov must be between 0 and 180 degrees, not {degrees}"));
+        }
+        Projection::ImagePlane { distance, half_height } => {
+            c.field("image_plane", |c| {
+                let sizes = c.size("distance", distance) & c.size("half_height", half_height);
+                if sizes && !(1e-8..=1e8).contains(&(half_height / distance)) {
+                    c.problem("half_height and distance differ too much");
+                }
+            });
+        }
+        Projection::Orthographic { height } => _ = c.field("orthographic", |c| c.size("height", height)),
+    }
+}
+
+fn picture(c: &mut Checker<'_>) {
+    let picture = c.scene.picture;
+    let side = |c: &mut Checker<'_>, name, pixels: u32| {
+        c.require((1..=65_535).contains(&pixels), name, format!("{name} must be from 1 to 65535 pixels, not {pixels}"))
+    };
+    let sides = side(c, "width", picture.width) & side(c, "height", picture.height);
+    let pixels = u64::from(picture.width) * u64::from(picture.height);
+    if sides && pixels > MOST_PIXELS {
+        c.problem(format!("a picture may have at most {} million pixels, not {pixels}", MOST_PIXELS / 1_000_000));
+    }
+}
+
+fn render(c: &mut Checker<'_>) {
+    let settings = c.scene.render;
+    c.within("max_depth", settings.max_depth.into(), 1.0, 100.0);
+    c.within("min_weight", settings.min_weight.into(), 0.0, 1.0);
+    c.field("antialias", |c| match settings.antialias {
+        Antialias::None => {}
+        Antialias::Grid { n } => {
+            let message = format!("grid must be from 1 to 64, not {n}");
+            let fine = (1..=64).contains(&n);
+            c.field("grid", |c| c.require(fine, "n", message));
+        }
+        Antialias::Recursive { threshold, max_depth } => c.field("recursive", |c| {
+            c.require((0.0..=1e6).contains(&threshold), "threshold", "threshold must be from 0 to 1e6");
+            c.within("max_depth", max_depth.into(), 0.0, 10.0);
+        }),
+    });
+}
+
+fn fog(c: &mut Checker<'_>, fog: Fog) {
+    match fog {
+        Fog::Exponential { color, distance } => {
+            c.field("exponential", |c| c.light("color", color) & c.size("distance", distance));
+        }
+        Fog::Linear { color, start, end } => {
+            c.field("linear", |c| {
+                c.light("color", color);
+                let sizes = c.size_or_zero("start", start) & c.size("end", end);
+                if sizes {
+                    c.require(end > start, "end", "end must be greater than start");
+                }
+            });
+        }
+    }
+}
+
+fn light(c: &mut Checker<'_>, light: &Light) {
+    let word = match light.kind {
+        LightKind::Point { .. } => "point",
+        LightKind::Spot { .. } => "spot",
+        LightKind::Directional { .. } => "directional",
+    };
+    c.field(word, |c| {
+        c.light("color", light.color);
+        c.strength("intensity", light.intensity);
+        match light.kind {
+            LightKind::Point { position, falloff: _ } => _ = c.point("position", position),
+            LightKind::Directional { direction } => _ = c.direction("direction", direction),
+            LightKind::Spot {
+                position,
+                target,
+                half_angle_degrees: edge,
+                inner_half_angle_degrees: inner,
+                falloff: _,
+            } => {
+                let points = c.point("position", position) & c.point("target", target);
+                if points {
+                    c.apart(("target", target), ("position", position));
+                }
+                let message = format!("half_angle must be above 0 and at most 180 degrees, not {edge}");
+                if c.require(edge > 1e-6 && edge <= 180.0, "half_angle", message) {
+                    let message = format!("inner_half_angle must be from 0 to half_angle, not {inner}");
+                    c.require((0.0..=edge).contains(&inner), "inner_half_angle", message);
+                }
+            }
+        }
+    });
+}

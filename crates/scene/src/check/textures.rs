@@ -1,0 +1,168 @@
+//! Textures: their numbers, and that none is made of itself.
+
+use super::Step;
+use super::values::Checker;
+use crate::{ImageId, Mapping, Paint, Pattern, Texture, TextureId};
+use durer_imaging::Texels;
+use durer_math::DAffine3;
+
+/// How deep textures may be made of textures.
+const DEEPEST: usize = 32;
+/// The most colours of a pattern.
+const MOST_COLORS: usize = 1000;
+
+pub(super) fn check(c: &mut Checker<'_>) {
+    images(c);
+    for (id, one) in (0..).zip(&c.scene.textures) {
+        c.at(Step::Texture(TextureId(id)), |c| texture(c, one));
+    }
+    nesting(c);
+}
+
+fn images(c: &mut Checker<'_>) {
+    for (id, image) in (0..).zip(&c.scene.images) {
+        let bitmap = &image.bitmap;
+        let texels = match &bitmap.texels {
+            Texels::U8(texels) => texels.len(),
+            Texels::U16(texels) => texels.len(),
+            Texels::F32(texels) => texels.len(),
+        };
+        let fine = texels > 0 && texels as u64 == u64::from(bitmap.width) * u64::from(bitmap.height);
+        if !fine {
+            c.at(Step::Image(ImageId(id)), |c| c.problem("the image's pixels do not fill its width and height"));
+        }
+    }
+}
+
+impl Pattern {
+    /// The word for this kind of pattern in scene files and messages.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Pattern::Checker { .. } => "checker",
+            Pattern::Stripes { .. } => "stripes",
+            Pattern::Rings { .. } => "rings",
+            Pattern::Gradient { .. } => "gradient",
+            Pattern::Image(_) => "image",
+            Pattern::Noise { .. } => "noise",
+            Pattern::Marble { .. } => "marble",
+            Pattern::Wood { .. } => "wood",
+        }
+    }
+
+    /// The colours and textures that it is made of.
+    pub fn colors(&self) -> &[Paint] {
+        match self {
+            Pattern::Checker { colors, .. }
+            | Pattern::Noise { colors, .. }
+            | Pattern::Marble { colors, .. }
+            | Pattern::Wood { colors, .. } => colors,
+            Pattern::Stripes { colors, .. } | Pattern::Rings { colors, .. } | Pattern::Gradient { colors, .. } => {
+                colors
+            }
+            Pattern::Image(_) => &[],
+        }
+    }
+}
+
+fn texture(c: &mut Checker<'_>, texture: &Texture) {
+    let Texture { name: _, transform, pattern } = texture;
+    c.field(pattern.word(), |c| {
+        c.transform(transform, DAffine3::IDENTITY);
+        c.field("colors", |c| colors(c, pattern));
+        match *pattern {
+            Pattern::Checker { size, .. } => _ = c.size("size", size),
+            Pattern::Stripes { axis, width, .. } => _ = c.direction("axis", axis) & c.size("width", width),
+            Pattern::Rings { width, .. } => _ = c.size("width", width),
+            Pattern::Gradient { axis, length, .. } => _ = c.direction("axis", axis) & c.size("length", length),
+            Pattern::Image(ref image) => {
+                let ImageId(id) = image.image;
+                c.require((id as usize) < c.scene.images.len(), "file", format!("there is no image {id}"));
+                if let Mapping::Cylindrical { half_height } = image.mapping {
+                    c.field("mapping", |c| c.field("cylindrical", |c| c.size("half_height", half_height)));
+                }
+            }
+            Pattern::Noise { size, octaves, .. } => _ = c.size("size", size) & self::octaves(c, octaves),
+            Pattern::Marble { size, turbulence, octaves, .. } | Pattern::Wood { size, turbulence, octaves, .. } => {
+                c.size("size", size);
+                c.within("turbulence", turbulence, 0.0, 1e6);
+                self::octaves(c, octaves);
+            }
+        }
+    });
+}
+
+fn octaves(c: &mut Checker<'_>, octaves: u32) -> bool {
+    c.within("octaves", octaves.into(), 1.0, 16.0)
+}
+
+fn colors(c: &mut Checker<'_>, pattern: &Pattern) {
+    let colors = pattern.colors();
+    let counts = !matches!(pattern, Pattern::Image(_));
+    if counts && !(2..=MOST_COLORS).contains(&colors.len()) {
+        c.problem(format!("there must be from 2 to {MOST_COLORS} colors, not {}", colors.len()));
+    }
+    for (at, color) in colors.iter().enumerate() {
+        c.at(Step::Index(at), |c| super::materials::paint(c, "a color", *color));
+    }
+}
+
+/// The textures that a texture is made of.
+fn parts(texture: &Texture) -> impl Iterator<Item = usize> {
+    texture.pattern.colors().iter().filter_map(|paint| match paint {
+        Paint::Color(_) => None,
+        Paint::Texture(TextureId(id)) => Some(*id as usize),
+    })
+}
+
+/// Refuses textures that are made of themselves, or of textures of textures too deep. Without recursion: at first
+/// nothing is known of this depth.
+fn nesting(c: &mut Checker<'_>) {
+    let textures = &c.scene.textures;
+    // 0: not seen, 1: on the way down, 2: done.
+    let mut state = vec![0u8; textures.len()];
+    let mut height = vec![0usize; textures.len()];
+    for start in 0..textures.len() {
+        if state[start] != 0 {
+            continue;
+        }
+        let mut way: Vec<(usize, Vec<usize>)> = Vec::new();
+        let enter = |id: usize, state: &mut Vec<u8>| {
+            state[id] = 1;
+            (id, parts(&textures[id]).filter(|part| *part < textures.len()).collect::<Vec<_>>())
+        };
+        way.push(enter(start, &mut state));
+        while let Some((id, open)) = way.last_mut() {
+            let id = *id;
+            match open.pop() {
+                Some(part) if state[part] == 0 => way.push(enter(part, &mut state)),
+                Some(part) if state[part] == 1 => made_of_itself(c, id, part),
+                Some(_) => {}
+                None => {
+                    state[id] = 2;
+                    let below = parts(&textures[id]).filter_map(|part| height.get(part)).max();
+                    height[id] = below.map_or(1, |below| below + 1);
+                    if height[id] == DEEPEST + 1 {
+                        c.at(Step::Texture(TextureId(id as u32)), |c| {
+                            c.problem(format!("textures of textures may be at most {DEEPEST} deep"))
+                        });
+                    }
+                    way.pop();
+                }
+            }
+        }
+    }
+}
+
+/// The problem that the texture `id` refers back to `part`.
+fn made_of_itself(c: &mut Checker<'_>, id: usize, part: usize) {
+    let texture = &c.scene.textures[id];
+    let at = texture.pattern.colors().iter().position(|paint| *paint == Paint::Texture(TextureId(part as u32)));
+    let name = c.scene.textures[part].name.as_deref().unwrap_or("a texture");
+    c.at(Step::Texture(TextureId(id as u32)), |c| {
+        c.field(texture.pattern.word(), |c| {
+            c.field("colors", |c| {
+                c.at(Step::Index(at.unwrap_or(0)), |c| c.problem(format!("{name} is made of itself")));
+            });
+        });
+    });
+}

@@ -1,0 +1,234 @@
+//! Single values: numbers, vectors, colours, transforms.
+
+use super::{Place, Problem, Step};
+use crate::{Scene, Transform, TransformStep};
+use durer_math::{DAffine3, DMat3, DVec3, Rgb};
+
+/// The largest coordinate or length.
+const LARGEST: f64 = 1e12;
+/// The smallest radius, width, distance, or length of a direction.
+const SMALLEST: f64 = 1e-9;
+/// The largest factor by which a transform may change a length.
+const LARGEST_FACTOR: f64 = 1e9;
+/// The brightest light or background.
+const BRIGHTEST: f32 = 1e6;
+
+/// Gathers problems on the way through a scene.
+pub(super) struct Checker<'s> {
+    pub(super) scene: &'s Scene,
+    pub(super) problems: Vec<Problem>,
+    /// Where the check is now.
+    place: Vec<Step>,
+}
+
+impl<'s> Checker<'s> {
+    pub(super) fn new(scene: &'s Scene) -> Self {
+        Checker { scene, problems: Vec::new(), place: Vec::new() }
+    }
+
+    /// Checks something one step further down.
+    pub(super) fn at<R>(&mut self, step: Step, check: impl FnOnce(&mut Self) -> R) -> R {
+        self.place.push(step);
+        let result = check(self);
+        self.place.pop();
+        result
+    }
+
+    /// Checks something in a field.
+    pub(super) fn field<R>(&mut self, name: &'static str, check: impl FnOnce(&mut Self) -> R) -> R {
+        self.at(Step::Field(name), check)
+    }
+
+    /// A problem right here; always false.
+    pub(super) fn problem(&mut self, message: impl Into<String>) -> bool {
+        let place = Place { steps: self.place.clone() };
+        self.problems.push(Problem { place, message: message.into(), help: None });
+        false
+    }
+
+    /// A problem right here, and what to do about it; always false.
+    pub(super) fn problem_with_help(&mut self, message: impl Into<String>, help: impl Into<String>) -> bool {
+        self.problem(message);
+        if let Some(last) = self.problems.last_mut() {
+            last.help = Some(help.into());
+        }
+        false
+    }
+
+    /// A problem in a field unless `fine`.
+    pub(super) fn require(&mut self, fine: bool, field: &'static str, message: impl Into<String>) -> bool {
+        fine || self.field(field, |c| c.problem(message))
+    }
+
+    /// A number in a range of its own.
+    pub(super) fn within(&mut self, name: &'static str, value: f64, least: f64, most: f64) -> bool {
+        let message = format!("{name} must be from {least} to {most}, not {value}");
+        self.require((least..=most).contains(&value), name, message)
+    }
+
+    /// A radius, width or distance.
+    pub(super) fn size(&mut self, name: &'static str, value: f64) -> bool {
+        let message = if value > LARGEST {
+            format!("{name} must be at most {LARGEST:e}")
+        } else if value > 0.0 {
+            format!("{name} must be at least {SMALLEST:e}")
+        } else {
+            format!("{name} must be above 0")
+        };
+        self.require((SMALLEST..=LARGEST).contains(&value), name, message)
+    }
+
+    /// A size that may also be 0.
+    pub(super) fn size_or_zero(&mut self, name: &'static str, value: f64) -> bool {
+        if value < 0.0 {
+            return self.field(name, |c| c.problem(format!("{name} must not be negative")));
+        }
+        value == 0.0 || self.size(name, value)
+    }
+
+    /// A point.
+    pub(super) fn point(&mut self, name: &'static str, point: DVec3) -> bool {
+        self.field(name, |c| c.point_here(name, point))
+    }
+
+    /// A point that is what the check has come to.
+    pub(super) fn point_here(&mut self, name: &str, point: DVec3) -> bool {
+        if !point.is_finite() {
+            return self.problem(format!("{name} must be finite"));
+        }
+        point.abs().max_element() <= LARGEST
+            || self.problem(format!("the coordinates of {name} must be at most {LARGEST:e} in size"))
+    }
+
+    /// A direction of any usable length.
+    pub(super) fn direction(&mut self, name: &'static str, direction: DVec3) -> bool {
+        self.field(name, |c| c.direction_here(name, direction))
+    }
+
+    /// A direction that is what the check has come to.
+    pub(super) fn direction_here(&mut self, name: &str, direction: DVec3) -> bool {
+        if !self.point_here(name, direction) {
+            return false;
+        }
+        if direction == DVec3::ZERO {
+            return self.problem(format!("{name} must not be zero: it has no direction"));
+        }
+        direction.length() >= SMALLEST || self.problem(format!("{name} must be at least {SMALLEST:e} long"))
+    }
+
+    /// Two points that must not coincide.
+    pub(super) fn apart(&mut self, (name, point): (&'static str, DVec3), (other, from): (&str, DVec3)) -> bool {
+        self.require((point - from).length() >= SMALLEST, name, format!("{name} must not be the same point as {other}"))
+    }
+
+    /// Light: no component negative.
+    pub(super) fn light(&mut self, name: &'static str, color: Rgb) -> bool {
+        if !color.is_finite() {
+            return self.field(name, |c| c.problem(format!("{name} must be finite")));
+        }
+        let fine = color.min_component() >= 0.0;
+        self.require(fine, name, format!("{name} must not be negative"))
+            && self.require(color.max_component() <= BRIGHTEST, name, format!("{name} must be at most {BRIGHTEST:e}"))
+    }
+
+    /// A part of light: every component from 0 to 1.
+    pub(super) fn fraction(&mut self, name: &'static str, color: Rgb) -> bool {
+        self.field(name, |c| c.fraction_here(name, color))
+    }
+
+    /// A part of light that is what the check has come to.
+    pub(super) fn fraction_here(&mut self, name: &str, color: Rgb) -> bool {
+        if !color.is_finite() {
+            return self.problem(format!("{name} must be finite"));
+        }
+        if color.min_component() < 0.0 {
+            return self.problem(format!("{name} must not be negative"));
+        }
+        if color.max_component() <= 1.0 {
+            return true;
+        }
+        let message = format!("{name} must not be above 1");
+        let help = "components go from 0 to 1";
+        if color.max_component() <= 255.0 && color.to_array().iter().all(|x| x.fract() == 0.0) {
+            let [r, g, b] = color.to_array().map(|x| x as u8);
+            return self.problem_with_help(message, format!("{help}; for 0 to 255 write \"#{r:02x}{g:02x}{b:02x}\""));
+        }
+        self.problem_with_help(message, help)
+    }
+
+    /// A strength, usually 0 to 1.
+    pub(super) fn strength(&mut self, name: &'static str, value: f32) -> bool {
+        let message = if value < 0.0 {
+            format!("{name} must not be negative")
+        } else {
+            format!("{name} must be at most {BRIGHTEST:e}")
+        };
+        self.require((0.0..=BRIGHTEST).contains(&value), name, message)
+    }
+
+    /// The field `transform`, and it together with those around it, which are `outer`. Gives all of them in one map,
+    /// or only the outer if this one cannot be used.
+    pub(super) fn transform(&mut self, transform: &Transform, outer: DAffine3) -> DAffine3 {
+        self.field("transform", |c| {
+            let mut fine = true;
+            for (at, step) in transform.steps.iter().enumerate() {
+                fine &= c.at(Step::Index(at), |c| c.step(step));
+            }
+            if !fine {
+                return outer;
+            }
+            let all = outer * transform.to_affine();
+            if is_usable(all.matrix3) && all.translation.is_finite() && all.translation.abs().max_element() <= LARGEST {
+                return all;
+            }
+            c.problem_with_help(
+                "these steps, with those of the groups around, flatten, stretch or move too much",
+                format!("together they may change no length by more than {LARGEST_FACTOR:e}"),
+            );
+            outer
+        })
+    }
+
+    fn step(&mut self, step: &TransformStep) -> bool {
+        match *step {
+            TransformStep::Translate(by) => self.point("translate", by),
+            TransformStep::Scale(by) => self.field("scale", |c| c.scale(by)),
+            TransformStep::Rotate { axis, degrees } => self.field("rotate", |c| {
+                c.direction("axis", axis)
+                    & c.require(degrees.abs() <= 1e6, "angle", "the angle must be at most 1e6 degrees")
+            }),
+            TransformStep::Matrix(rows) => self.field("matrix", |c| {
+                let finite = rows.iter().flatten().all(|x| x.abs() <= LARGEST);
+                if !finite {
+                    return c.problem(format!("the numbers of a matrix must be at most {LARGEST:e} in size"));
+                }
+                is_usable(step.to_affine().matrix3)
+                    || c.problem_with_help(
+                        "this matrix cannot be reversed",
+                        "its first three columns must point in different directions",
+                    )
+            }),
+        }
+    }
+
+    fn scale(&mut self, by: DVec3) -> bool {
+        if !by.is_finite() {
+            return self.problem("scale must be finite");
+        }
+        if by.abs().min_element() == 0.0 {
+            return self
+                .problem_with_help("scale must not be 0: it would flatten things", "a small factor such as 0.001 can");
+        }
+        let fine = by.abs().max_element() <= LARGEST_FACTOR && by.abs().min_element() >= 1.0 / LARGEST_FACTOR;
+        fine || self.problem(format!("scale must be between {:e} and {LARGEST_FACTOR:e}", 1.0 / LARGEST_FACTOR))
+    }
+}
+
+/// True if the map and its inverse change no length by more than the largest factor. (Frobenius norms bound it from
+/// above; comparisons are false for NaN.)
+fn is_usable(m: DMat3) -> bool {
+    let norm = |m: DMat3| m.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
+    // √3 is the norm of the identity.
+    let most = LARGEST_FACTOR * 1.75;
+    m.is_finite() && m.determinant() != 0.0 && norm(m) <= most && norm(m.inverse()) <= most
+}
