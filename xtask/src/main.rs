@@ -1,1 +1,50 @@
-fn main() {}
+//! The project's own chores: `cargo xtask ci`, `bless`, `gallery`, `bench`. They run the built `durer`; they are not part of it.
+
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "programs may print")]
+
+mod bench;
+mod bless;
+mod ci;
+mod gallery;
+mod shell;
+
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+cargo xtask CHORE
+
+  ci                        format, lints, tests, fresh documents: all that must hold before a commit
+  bless [--check]           rewrite docs/scene.schema.json, docs/reference.md and docs/cli.md from the program
+  gallery [NAME ...]        render the pictures of docs/gallery (or only these) and write its page
+  bench peers [--rounds N]  the seed's room in durer, POV-Ray and Tachyon, to benches/runs/";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match run(&words) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(words: &[&str]) -> Result<(), String> {
+    match words {
+        ["ci"] => ci::run(),
+        ["bless"] => bless::run(),
+        ["bless", "--check"] => bless::check(),
+        ["gallery", names @ ..] => gallery::run(names),
+        ["bench", "peers"] => bench::peers::run(bench::peers::ROUNDS),
+        ["bench", "peers", "--rounds", rounds] => match rounds.parse() {
+            Ok(rounds) if rounds > 0 => bench::peers::run(rounds),
+            Ok(_) | Err(_) => Err(format!("--rounds: `{rounds}` is not a number above 0")),
+        },
+        [] | ["help" | "--help" | "-h"] => {
+            println!("{USAGE}");
+            Ok(())
+        }
+        _ => Err(format!("unknown chore `{}`\n\n{USAGE}", words.join(" "))),
+    }
+}

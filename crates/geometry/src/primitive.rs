@@ -48,6 +48,8 @@ pub struct Primitive {
     origin: DVec3,
     world_from_shape: DMat3,
     shape_from_world: DMat3,
+    /// For a flat shape its unit normal in the world and one over the stretch of it; the same everywhere on it.
+    flat: Option<(DVec3, f64)>,
     /// Norms (greatest sum of a row) of the two matrices, for bounds on rounding errors.
     norms: [f64; 2],
 }
@@ -136,7 +138,12 @@ impl Primitive {
     fn place(kind: Kind, world_from_shape: &DAffine3) -> Primitive {
         let world = world_from_shape.matrix3;
         let inverse = world.inverse();
+        let flat = match kind {
+            Kind::Plane(_) | Kind::Disc(_) | Kind::Rectangle(_) => Some(outward_normal(&inverse, DVec3::Y)),
+            Kind::Sphere(_) | Kind::Cuboid(_) | Kind::Cylinder(_) | Kind::Cone(_) | Kind::Triangle(_) | Kind::Torus(_) => None,
+        };
         Primitive {
+            flat,
             kind,
             mask: u32::MAX,
             origin: world_from_shape.translation,
@@ -172,6 +179,19 @@ impl Primitive {
         each_kind!(&self.kind, shape => shape.intersect(&self.ray_to_shape(ray), t_max))
     }
 
+    /// How often the ray crosses it with 0 < t < `t_max`.
+    pub fn count_crossings(&self, ray: &Ray, t_max: f64) -> u32 {
+        let (mut ray, mut t_max, mut count) = (*ray, t_max, 0);
+        while let Some(crossing) = self.intersect(&ray, t_max) {
+            count += 1;
+            let surface = self.surface(&ray, &crossing);
+            let onward = surface.offset.copysign(ray.direction.dot(surface.normal));
+            ray.origin = surface.point + surface.normal * onward;
+            t_max -= crossing.t;
+        }
+        count
+    }
+
     /// The surface at a crossing of `ray`.
     #[inline]
     pub fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
@@ -183,16 +203,17 @@ impl Primitive {
     fn surface_of(&self, shape: &impl Shape, near: DVec3, part: u32) -> Surface {
         let (snapped, normal) = shape.surface(self.to_shape(near), part);
         let point = self.origin + self.world_from_shape * snapped;
-        // Normals map by the inverse transpose.
-        let outward = self.shape_from_world.transpose() * normal;
-        let per_stretch = 1.0 / outward.length();
+        let (normal, per_stretch) = match self.flat {
+            Some(known) => known,
+            None => outward_normal(&self.shape_from_world, normal),
+        };
         // How far the point may seem to be from the surface when a new ray's origin is mapped back to the canonical
         // space: the shape's own rounding, and that of the two maps (a few operations of half an ulp each).
         let [world_norm, shape_norm] = self.norms;
         let reach = world_norm * largest(snapped) + largest(point) + largest(self.origin);
         let doubt = shape.rounding() + 16.0 * f64::EPSILON * shape_norm * reach;
         // A step of s along the world's unit normal is one of s · stretch along the canonical one.
-        Surface { point, normal: outward * per_stretch, offset: 4.0 * doubt * per_stretch }
+        Surface { point, normal, offset: 4.0 * doubt * per_stretch }
     }
 
     /// Texture coordinates at a point of the surface.
@@ -217,6 +238,15 @@ impl Primitive {
     fn to_shape(&self, point: DVec3) -> DVec3 {
         self.shape_from_world * (point - self.origin)
     }
+}
+
+/// The world's unit normal for a unit normal in canonical space, and one over its stretch. Normals map by the inverse
+/// transpose.
+#[inline(always)]
+fn outward_normal(shape_from_world: &DMat3, normal: DVec3) -> (DVec3, f64) {
+    let outward = shape_from_world.transpose() * normal;
+    let per_stretch = 1.0 / outward.length();
+    (outward * per_stretch, per_stretch)
 }
 
 /// The frame whose y axis is `axis` (with its length) and whose other axes have length `radius`.

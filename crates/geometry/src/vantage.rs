@@ -7,10 +7,14 @@
 use crate::Bounds;
 use durer_math::DVec3;
 
-/// Cells along an edge of the cube: a cell is about three degrees wide.
-const CELLS: usize = 32;
+/// Cells along an edge of the cube: a cell is about two degrees wide.
+const CELLS: usize = 48;
 
 const CELL_COUNT: usize = 6 * CELLS * CELLS;
+
+/// Which planes are nearest is decided for blocks of so many cells by as many, at once.
+const BLOCK: usize = 4;
+const BLOCKS: usize = CELLS / BLOCK;
 
 /// With more bounded primitives than this the lists get long and the tree is the better way.
 pub(crate) const MOST_BOUNDED: usize = 1024;
@@ -19,7 +23,7 @@ pub(crate) const MOST_BOUNDED: usize = 1024;
 pub(crate) const MOST_PLANES: usize = 16;
 
 /// A cell that more primitives are seen through has no list; its rays go through the tree.
-const LONGEST_LIST: usize = 12;
+const LONGEST_LIST: u32 = 12;
 
 /// Projections are widened by this much of the cube's half edge, for the rounding of rays and of the
 /// look-up, which is in single precision.
@@ -28,9 +32,17 @@ const MARGIN: f64 = 1e-6;
 /// A point, and the primitives seen from it in each direction.
 #[derive(Clone, Debug)]
 pub struct Vantage {
-    /// For each cell where its list starts in `ids`; one more at the end.
-    starts: Vec<u32>,
+    point: DVec3,
+    cells: Vec<Cell>,
+    /// The lists of all cells, one after the other.
     ids: Vec<u32>,
+}
+
+/// Where a cell's list is.
+#[derive(Clone, Copy, Debug, Default)]
+struct Cell {
+    start: u32,
+    length: u32,
 }
 
 /// A primitive in a box.
@@ -58,62 +70,71 @@ impl Vantage {
         }
         nearest_planes(point, planes, |cell, id| seen.push((cell as u32, id)));
         // A counting sort by cell; what comes first stays first.
-        let mut starts = vec![0; CELL_COUNT + 1];
+        let mut cells = vec![Cell::default(); CELL_COUNT];
         for &(cell, _) in &seen {
-            starts[cell as usize + 1] += 1;
+            cells[cell as usize].length += 1;
         }
-        for cell in 0..CELL_COUNT {
-            starts[cell + 1] += starts[cell];
+        let mut start = 0;
+        for cell in &mut cells {
+            (cell.start, start) = (start, start + cell.length);
         }
-        let mut next = starts.clone();
+        let mut next: Vec<u32> = cells.iter().map(|cell| cell.start).collect();
         let mut ids = vec![0; seen.len()];
         for (cell, id) in seen {
             let place = &mut next[cell as usize];
             ids[*place as usize] = id;
             *place += 1;
         }
-        Vantage { starts, ids }
+        Vantage { point, cells, ids }
     }
 
-    /// The primitives that a ray from the point in this direction can meet first; `None` if they are too many to list.
+    /// The primitives that can be met between a place and the point; `None` if they are too many to list.
+    #[inline(always)]
+    pub(crate) fn candidates_towards(&self, place: DVec3) -> Option<&[u32]> {
+        // Not from a ray's direction, which is ready only after a root and a division.
+        self.candidates(place - self.point)
+    }
+
+    /// The primitives that a ray from the point in this direction (of any length) can meet first; `None` if they are too
+    /// many to list.
     #[inline(always)]
     pub(crate) fn candidates(&self, direction: DVec3) -> Option<&[u32]> {
-        let cell = cell_of(direction);
-        let list = &self.ids[self.starts[cell] as usize..self.starts[cell + 1] as usize];
-        (list.len() <= LONGEST_LIST).then_some(list)
+        let Cell { start, length } = self.cells[cell_of(direction)];
+        if length > LONGEST_LIST { None } else { self.ids.get(start as usize..(start + length) as usize) }
     }
 }
 
-/// Calls `visit` for every cell and the planes that may be the nearest of their mask somewhere in it.
+/// Calls `visit` for every cell and the planes that may be the nearest of their mask somewhere in its block.
 ///
 /// In a direction d a plane is at 1/t = -n·d / h, with h the height of the point above it: linear in d, so its greatest
-/// and least values on a cell are at the corners.
+/// and least values on a block are at the corners.
 fn nearest_planes(point: DVec3, planes: &[Flat], mut visit: impl FnMut(usize, u32)) {
     let mut planes = planes.to_vec();
     planes.sort_by_key(|plane| plane.mask);
     for group in planes.chunk_by(|a, b| a.mask == b.mask) {
         let nearness: Vec<DVec3> = group.iter().map(|p| p.normal / -p.normal.dot(point - p.point)).collect();
         let mut greatest = vec![0.0; group.len()];
-        for cell in 0..CELL_COUNT {
-            let (face, row, column) = (cell / (CELLS * CELLS), cell / CELLS % CELLS, cell % CELLS);
-            // A plane that is nearer than this nowhere in the cell is hidden by another one.
+        for block in 0..6 * BLOCKS * BLOCKS {
+            let (face, row, column) = (block / (BLOCKS * BLOCKS), block / BLOCKS % BLOCKS, block % BLOCKS);
+            // A plane that is nearer than this nowhere in the block is hidden by another one.
             let mut nearest = 0.0_f64;
             for (nearness, greatest) in nearness.iter().zip(&mut greatest) {
                 let range = nearness_range(*nearness, face, row, column);
                 nearest = nearest.max(range.0);
                 *greatest = range.1;
             }
-            for (plane, greatest) in group.iter().zip(&greatest) {
-                if *greatest >= nearest {
-                    visit(cell, plane.id);
+            for (plane, _) in group.iter().zip(&greatest).filter(|(_, greatest)| **greatest >= nearest) {
+                for cell_row in row * BLOCK..(row + 1) * BLOCK {
+                    let first = (face * CELLS + cell_row) * CELLS + column * BLOCK;
+                    (first..first + BLOCK).for_each(|cell| visit(cell, plane.id));
                 }
             }
         }
     }
 }
 
-/// The least and the greatest value of `nearness · d` over the directions d of a cell; infinite for a plane through the
-/// point, which neither hides nor is hidden.
+/// The least and the greatest value of `nearness · d` over the directions d of a block; for a plane through the point,
+/// which neither hides nor is hidden, 0 and infinity.
 fn nearness_range(nearness: DVec3, face: usize, row: usize, column: usize) -> (f64, f64) {
     if !nearness.is_finite() {
         return (0.0, f64::INFINITY);
@@ -121,8 +142,8 @@ fn nearness_range(nearness: DVec3, face: usize, row: usize, column: usize) -> (f
     let n = nearness.to_array();
     let axis = face / 2;
     let [s, t] = other_axes(axis);
-    const HALF: f64 = 1.0 / CELLS as f64 + MARGIN;
-    let middle = |index: usize| (2 * index + 1) as f64 / CELLS as f64 - 1.0;
+    const HALF: f64 = 1.0 / BLOCKS as f64 + MARGIN;
+    let middle = |index: usize| (2 * index + 1) as f64 / BLOCKS as f64 - 1.0;
     let ahead = if face % 2 == 1 { n[axis] } else { -n[axis] };
     let at_middle = ahead + n[s] * middle(column) + n[t] * middle(row);
     let reach = (n[s].abs() + n[t].abs()) * HALF;
@@ -149,8 +170,13 @@ fn cell_of(d: DVec3) -> usize {
         (0, x, y, z)
     };
     const HALF: f32 = (CELLS / 2) as f32;
+    // Adding this rounds to a whole number, which then stands in the lowest bits: cheaper than a checked conversion.
+    const ROUND: f32 = (3 << 22) as f32;
     let scale = HALF / depth.abs();
-    let index = |along: f32| ((along * scale + HALF) as i32).clamp(0, CELLS as i32 - 1) as usize;
+    let index = |along: f32| {
+        let cell = (along * scale + (HALF - 0.5)).max(0.0).min((CELLS - 1) as f32);
+        ((cell + ROUND).to_bits() & 0xff) as usize
+    };
     let face = 2 * axis + usize::from(depth > 0.0);
     (face * CELLS + index(t)) * CELLS + index(s)
 }

@@ -136,48 +136,54 @@ impl World {
         best.hit
     }
 
-    /// The classes of the primitives that are met with 0 < t < `t_max`: the union of their masks, or as much of it as was
-    /// found until it shared a bit with `enough`.
+    /// Calls `visit` for primitives that the ray meets with 0 < t < `t_max`, in an order that has nothing to do with t,
+    /// until it returns true; gives whether it did.
     ///
-    /// `end` is a vantage at the point that the ray is aimed at, if there is one; it changes nothing but the speed.
+    /// `end` is a vantage at the point that the ray is aimed at, if there is one: with it, planes behind another plane
+    /// that was met may be left out.
     #[inline]
-    pub fn classes_met(&self, ray: &Ray, t_max: f64, enough: u32, end: Option<&Vantage>) -> u32 {
-        match end.and_then(|vantage| vantage.candidates(-ray.direction)) {
+    pub fn any_hit(
+        &self,
+        ray: &Ray,
+        t_max: f64,
+        end: Option<&Vantage>,
+        mut visit: impl FnMut(u32, &Primitive) -> bool,
+    ) -> bool {
+        match end.and_then(|vantage| vantage.candidates_towards(ray.origin)) {
             Some(ids) => {
-                let mut classes = 0;
-                let _ = ids.iter().any(|&id| self.adds_class(&mut classes, id, ray, t_max) & enough != 0);
-                classes
+                for &id in ids {
+                    let primitive = &self.primitives[id as usize];
+                    if primitive.intersect(ray, t_max).is_some() && visit(id, primitive) {
+                        return true;
+                    }
+                }
+                false
             }
-            None => dispatch!(self.level, simd => self.classes_met_with(simd, ray, t_max, enough)),
+            None => self.any_hit_in_tree(ray, t_max, &mut visit),
         }
     }
 
+    #[inline(never)]
+    fn any_hit_in_tree(&self, ray: &Ray, t_max: f64, visit: &mut dyn FnMut(u32, &Primitive) -> bool) -> bool {
+        let mut test = |id: u32| {
+            let primitive = &self.primitives[id as usize];
+            primitive.intersect(ray, t_max).is_some() && visit(id, primitive)
+        };
+        dispatch!(self.level, simd => self.any_hit_with(simd, ray, t_max, &mut test))
+    }
+
     #[inline(always)]
-    fn classes_met_with<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, enough: u32) -> u32 {
-        let mut classes = 0;
+    fn any_hit_with<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, test: &mut impl FnMut(u32) -> bool) -> bool {
         for planes in &self.planes {
             let mut hits = planes.met(simd, ray, t_max);
             while hits != 0 {
-                classes |= self.primitives[planes.ids[hits.trailing_zeros() as usize & 3] as usize].mask;
+                if test(planes.ids[hits.trailing_zeros() as usize & 3]) {
+                    return true;
+                }
                 hits &= hits - 1;
             }
         }
-        if classes & enough == 0 {
-            self.bvh.any(simd, ray, t_max, |thing| {
-                self.adds_class(&mut classes, self.bounded_ids[thing as usize], ray, t_max) & enough != 0
-            });
-        }
-        classes
-    }
-
-    /// Adds the class of a primitive if the ray meets it; gives the classes met so far.
-    #[inline(always)]
-    fn adds_class(&self, classes: &mut u32, id: u32, ray: &Ray, t_max: f64) -> u32 {
-        let primitive = &self.primitives[id as usize];
-        if *classes | primitive.mask != *classes && primitive.intersect(ray, t_max).is_some() {
-            *classes |= primitive.mask;
-        }
-        *classes
+        self.bvh.any(simd, ray, t_max, |thing| test(self.bounded_ids[thing as usize]))
     }
 
     /// The surface at a hit of `ray`.

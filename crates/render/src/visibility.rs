@@ -2,7 +2,6 @@
 
 use crate::compile::{CLEAR, CompiledScene, OPAQUE};
 use crate::media::Media;
-use crate::shading::Shading;
 use durer_geometry::Ray;
 use durer_math::Rgb;
 
@@ -17,36 +16,43 @@ const SHORT_OF_LIGHT: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;
 #[inline]
 pub(crate) fn visibility(scene: &CompiledScene, media: &Media, ray: &Ray, distance: f64, light: usize) -> Rgb {
     let reach = distance * SHORT_OF_LIGHT;
-    let met = scene.world.classes_met(ray, reach, OPAQUE, scene.light_vantages[light].as_ref());
-    if met & OPAQUE != 0 {
+    let mut left = Rgb::WHITE;
+    let mut clear = false;
+    let dark = scene.world.any_hit(ray, reach, scene.light_vantages[light].as_ref(), |id, primitive| {
+        if primitive.mask & OPAQUE != 0 {
+            return true;
+        }
+        clear = true;
+        left *= through(scene.material(id).transparency, primitive.count_crossings(ray, reach));
+        left.is_black()
+    });
+    if dark {
         Rgb::BLACK
-    } else if met & CLEAR != 0 || !media.is_empty() {
-        through_clear(scene, media, *ray, reach)
+    } else if scene.attenuates && (clear || !media.is_empty()) {
+        left * through_media(scene, media, *ray, reach)
     } else {
-        Rgb::WHITE
+        left
     }
 }
 
-fn through_clear(scene: &CompiledScene, media: &Media, mut ray: Ray, mut reach: f64) -> Rgb {
+/// What is left after so many surfaces of the same transparency.
+fn through(transparency: Rgb, surfaces: u32) -> Rgb {
+    (0..surfaces).fold(Rgb::WHITE, |left, _| left * transparency)
+}
+
+/// What media leave of light: goes from surface to surface, for the innermost medium decides.
+fn through_media(scene: &CompiledScene, media: &Media, mut ray: Ray, mut reach: f64) -> Rgb {
     let mut left = Rgb::WHITE;
-    let mut media = if scene.attenuates { media.clone() } else { Media::default() };
+    let mut media = media.clone();
     while let Some(hit) = scene.world.closest_hit(&ray, reach, CLEAR, None) {
-        let shading = Shading::at(scene, &ray, &hit);
-        left *= shading.material.transparency;
-        if scene.attenuates {
-            left *= media.transmittance(scene, hit.crossing.t);
-            if shading.material.is_medium() {
-                let _ = media.cross(hit.primitive, shading.from_outside);
-            }
-        }
-        if left.is_black() {
-            return left;
+        left *= media.transmittance(scene, hit.crossing.t);
+        let surface = scene.world.surface(&ray, &hit);
+        let side = ray.direction.dot(surface.normal);
+        if scene.material(hit.primitive).is_medium() {
+            let _ = media.cross(hit.primitive, side < 0.0);
         }
         reach -= hit.crossing.t;
-        ray = shading.ray_on(ray.direction);
+        ray.origin = surface.point + surface.normal * surface.offset.copysign(side);
     }
-    if scene.attenuates {
-        left *= media.transmittance(scene, reach);
-    }
-    left
+    left * media.transmittance(scene, reach)
 }

@@ -1,0 +1,92 @@
+//! The explanation for programs: everything, with all digits.
+
+use super::{Explained, words};
+use crate::labels;
+use durer::math::{DVec3, Rgb};
+use durer::{Contribution, HitExplanation, LightExplanation, RayExplanation, SampleExplanation};
+use serde_json::{Value, json};
+
+impl Explained<'_> {
+    /// The whole explanation.
+    pub(super) fn json(&self) -> Value {
+        let picture = self.scene.picture;
+        json!({
+            "pixel": [self.pixel.x, self.pixel.y],
+            "picture": [picture.width, picture.height],
+            "color": rgb(self.pixel.color),
+            "sum": rgb(self.sum()),
+            "stored": self.stored(),
+            "samples": self.pixel.samples.iter().map(|sample| self.sample_json(sample)).collect::<Vec<_>>(),
+        })
+    }
+
+    fn sample_json(&self, sample: &SampleExplanation) -> Value {
+        json!({
+            "at": [sample.at.x, sample.at.y],
+            "weight": sample.weight,
+            "color": rgb(sample.color),
+            "ray": self.ray_json(&sample.ray),
+        })
+    }
+
+    fn ray_json(&self, ray: &RayExplanation) -> Value {
+        let not_traced = ray.not_traced.iter().map(|(kind, weight, why)| {
+            json!({ "kind": words::ray_key(*kind), "weight": rgb(*weight), "why": words::why_not_key(*why) })
+        });
+        json!({
+            "kind": words::ray_key(ray.kind),
+            "depth": ray.depth,
+            "origin": xyz(ray.origin),
+            "direction": xyz(ray.direction),
+            "weight": rgb(ray.weight),
+            "hit": ray.hit.as_ref().map(|hit| self.hit_json(hit)),
+            "lights": ray.lights.iter().map(|light| self.light_json(light)).collect::<Vec<_>>(),
+            "contributions": ray.contributions.iter().map(contribution).collect::<Vec<_>>(),
+            "not_traced": not_traced.collect::<Vec<_>>(),
+            "children": ray.children.iter().map(|child| self.ray_json(child)).collect::<Vec<_>>(),
+        })
+    }
+
+    fn hit_json(&self, hit: &HitExplanation) -> Value {
+        let label = self.shapes.get(hit.shape);
+        json!({
+            "shape": hit.shape,
+            "kind": label.map(|label| label.kind),
+            "name": label.and_then(|label| label.name.as_deref()),
+            "place": label.map(|label| label.place.as_str()),
+            "distance": hit.distance,
+            "point": xyz(hit.point),
+            "normal": xyz(hit.normal),
+            "from_outside": hit.from_outside,
+            "color": rgb(hit.color),
+        })
+    }
+
+    /// `distance` is null both where the light does not shine and where it is infinitely far away; `shines` tells.
+    fn light_json(&self, light: &LightExplanation) -> Value {
+        json!({
+            "light": light.light,
+            "label": labels::light(self.scene, light.light),
+            "shines": light.distance.is_some(),
+            "distance": light.distance,
+            "cosine": light.cosine,
+            "visibility": rgb(light.visibility),
+        })
+    }
+}
+
+fn contribution(contribution: &Contribution) -> Value {
+    json!({
+        "source": words::source_key(contribution.source),
+        "light": words::light_of(contribution.source),
+        "amount": rgb(contribution.amount),
+    })
+}
+
+fn rgb(color: Rgb) -> [f32; 3] {
+    color.to_array()
+}
+
+fn xyz(v: DVec3) -> [f64; 3] {
+    [v.x, v.y, v.z]
+}

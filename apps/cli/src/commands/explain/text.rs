@@ -1,0 +1,155 @@
+//! The explanation for people: a tree of rays at the left, an account of light at the right.
+
+use super::Explained;
+use super::ledger::Ledger;
+use super::words;
+use crate::labels;
+use crate::numbers::{color, count, short, vector};
+use durer::imaging::Transfer;
+use durer::math::Rgb;
+use durer::{HitExplanation, LightExplanation, NotTraced, RayExplanation, RayKind, SampleExplanation};
+
+impl Explained<'_> {
+    /// The whole explanation.
+    pub(super) fn text(&self) -> String {
+        let mut page = Ledger::default();
+        self.heading(&mut page);
+        for (index, sample) in self.pixel.samples.iter().enumerate() {
+            self.sample(&mut page, index, sample);
+        }
+        self.account(&mut page);
+        page.into_text()
+    }
+
+    fn heading(&self, page: &mut Ledger) {
+        let picture = self.scene.picture;
+        let samples = &self.pixel.samples;
+        let kept = samples.iter().filter(|sample| sample.weight.is_some()).count();
+        let thrown = match samples.len() - kept {
+            0 => String::new(),
+            thrown => format!(", {thrown} of them thrown away by anti-aliasing"),
+        };
+        page.line(&format!(
+            "{}: pixel {},{} of {} × {}, {}{thrown}",
+            self.file,
+            self.pixel.x,
+            self.pixel.y,
+            picture.width,
+            picture.height,
+            count(samples.len(), "sample"),
+        ));
+    }
+
+    fn sample(&self, page: &mut Ledger, index: usize, sample: &SampleExplanation) {
+        let place = format!("sample {} at ({}, {})", index + 1, short(sample.at.x), short(sample.at.y));
+        let Some(weight) = sample.weight else {
+            page.line(&format!("{place}, thrown away; its color was {}", three(sample.color)));
+            return;
+        };
+        page.gap();
+        page.heading(&format!("{place}, which counts {}", short(f64::from(weight))));
+        self.ray(page, &sample.ray);
+        page.rule();
+        page.amount(&format!("color of sample {}", index + 1), sample.color);
+        if sample.color != sample.ray.sum(Rgb::BLACK) {
+            page.line("(a color that is not finite counts as black)");
+        }
+        if weight != 1.0 {
+            page.amount(&format!("  × {}", short(f64::from(weight))), sample.color * weight);
+        }
+    }
+
+    /// A ray whose heading stands already at the place of the branch.
+    fn ray(&self, page: &mut Ledger, ray: &RayExplanation) {
+        let weight = match ray.kind {
+            RayKind::Eye => String::new(),
+            RayKind::Reflected | RayKind::Transmitted => format!(", weight {}", color(ray.weight)),
+        };
+        page.line(&format!("{}, depth {}{weight}", words::ray(ray.kind), ray.depth));
+        let ends = ray.children.is_empty() && ray.not_traced.is_empty();
+        page.within(if ends { "   " } else { "│  " }, |page| self.of_ray(page, ray));
+        self.branches(page, ray);
+    }
+
+    /// What the ray itself met and brought.
+    fn of_ray(&self, page: &mut Ledger, ray: &RayExplanation) {
+        page.line(&format!("from {} towards {}", vector(ray.origin), vector(ray.direction)));
+        match &ray.hit {
+            Some(hit) => self.hit(page, hit),
+            None => page.line("hits nothing"),
+        }
+        for contribution in ray.contributions.iter().filter(|c| words::light_of(c.source).is_none()) {
+            page.amount(words::source(contribution.source), contribution.amount);
+        }
+        for light in &ray.lights {
+            page.line(&self.light(light));
+            let from_it = ray.contributions.iter().filter(|c| words::light_of(c.source) == Some(light.light));
+            for contribution in from_it {
+                page.amount(&format!("  {}", words::source(contribution.source)), contribution.amount);
+            }
+        }
+    }
+
+    fn hit(&self, page: &mut Ledger, hit: &HitExplanation) {
+        let side = if hit.from_outside { "outside" } else { "inside" };
+        page.line(&format!("hits {} after {}, on its {side}", self.shape(hit.shape), short(hit.distance)));
+        page.line(&format!("at {}, normal {}, color {}", vector(hit.point), vector(hit.normal), three(hit.color)));
+    }
+
+    fn light(&self, light: &LightExplanation) -> String {
+        let name = labels::light(self.scene, light.light);
+        let Some(distance) = light.distance else { return format!("{name}: does not shine here") };
+        if light.cosine <= 0.0 {
+            return format!("{name}: behind the surface");
+        }
+        let away = if distance.is_finite() { format!(", {} away", short(distance)) } else { String::new() };
+        let through = match light.visibility {
+            v if v == Rgb::WHITE => "nothing in the way".to_owned(),
+            v if v.is_black() => "in shadow".to_owned(),
+            v => format!("{} gets through", color(v)),
+        };
+        format!("{name}: {through}{away}, cosine {}", short(light.cosine))
+    }
+
+    /// The rays that start where this one ended, and those that would have.
+    fn branches(&self, page: &mut Ledger, ray: &RayExplanation) {
+        let mut left = ray.children.len() + ray.not_traced.len();
+        for child in &ray.children {
+            left -= 1;
+            page.fork(left == 0, |page| self.ray(page, child));
+        }
+        for (kind, weight, why) in &ray.not_traced {
+            left -= 1;
+            page.fork(left == 0, |page| page.line(&not_traced(*kind, *weight, *why)));
+        }
+    }
+
+    /// The sum, and what becomes of it.
+    fn account(&self, page: &mut Ledger) {
+        page.gap();
+        if self.pixel.samples.len() > 1 {
+            page.amount("sum of all samples, each times what it counts", self.sum());
+        }
+        page.amount("the pixel as rendered, in linear light", self.pixel.color);
+        page.line(match self.sum_is_exact() {
+            true => "The two are equal to the last bit.",
+            false => "The sum differs from the pixel as rendered. This is a defect of durer: please report it.",
+        });
+        if let Some([r, g, b]) = self.stored() {
+            let transfer = match self.scene.picture.transfer {
+                Transfer::Srgb => "sRGB",
+                Transfer::Linear => "linear",
+            };
+            page.line(&format!("In a PNG of 8 bits ({transfer}): {r} {g} {b}, that is #{r:02x}{g:02x}{b:02x}."));
+        }
+    }
+}
+
+/// Always three numbers, where one alone could be taken for something else.
+fn three(color: Rgb) -> String {
+    color.to_array().map(|v| short(f64::from(v))).join(" ")
+}
+
+fn not_traced(kind: RayKind, weight: Rgb, why: NotTraced) -> String {
+    format!("{}, weight {}: not traced, {}", words::ray(kind), color(weight), words::why_not(why))
+}

@@ -1,0 +1,67 @@
+//! Words for the façade's enums.
+
+use durer::{NotTraced, RayKind, Source};
+
+/// In sentences.
+pub(super) fn ray(kind: RayKind) -> &'static str {
+    match kind {
+        RayKind::Eye => "ray of the eye",
+        RayKind::Reflected => "reflected ray",
+        RayKind::Transmitted => "transmitted ray",
+    }
+}
+
+/// In JSON.
+pub(super) fn ray_key(kind: RayKind) -> &'static str {
+    match kind {
+        RayKind::Eye => "eye",
+        RayKind::Reflected => "reflected",
+        RayKind::Transmitted => "transmitted",
+    }
+}
+
+/// In sentences.
+pub(super) fn source(source: Source) -> &'static str {
+    match source {
+        Source::Fog => "fog on the way",
+        Source::Background => "background",
+        Source::Ambient => "ambient light",
+        Source::Diffuse(_) => "diffuse",
+        Source::Specular(_) => "highlight",
+    }
+}
+
+/// In JSON.
+pub(super) fn source_key(source: Source) -> &'static str {
+    match source {
+        Source::Fog => "fog",
+        Source::Background => "background",
+        Source::Ambient => "ambient",
+        Source::Diffuse(_) => "diffuse",
+        Source::Specular(_) => "specular",
+    }
+}
+
+/// The light that a contribution comes from, if it is one.
+pub(super) fn light_of(source: Source) -> Option<usize> {
+    match source {
+        Source::Diffuse(light) | Source::Specular(light) => Some(light),
+        Source::Fog | Source::Background | Source::Ambient => None,
+    }
+}
+
+/// In sentences.
+pub(super) fn why_not(why: NotTraced) -> &'static str {
+    match why {
+        NotTraced::TooDeep => "deeper than max_depth",
+        NotTraced::TooFaint => "too faint to count",
+    }
+}
+
+/// In JSON.
+pub(super) fn why_not_key(why: NotTraced) -> &'static str {
+    match why {
+        NotTraced::TooDeep => "too_deep",
+        NotTraced::TooFaint => "too_faint",
+    }
+}

@@ -1,0 +1,147 @@
+//! `durer render`: from a scene file to a picture file.
+
+mod interrupt;
+mod progress;
+mod report;
+
+use crate::exit::{Exit, Failure};
+use crate::load::SceneArgs;
+use crate::overrides::Overrides;
+use crate::target::{self, FileOptions};
+use clap::{Args, ValueEnum};
+use durer::imaging::EncodeOptions;
+use durer::{CheckedScene, Film, PictureFile, Region, RenderOptions};
+use interrupt::Interrupt;
+use progress::Bar;
+use report::{Report, Seconds};
+use std::path::PathBuf;
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  durer render room.yaml                                  writes room.png
+  durer render room.yaml -o room.exr --bit-depth float
+  durer render room.yaml --width 1920 --antialias grid:4
+  durer render room.yaml --crop 100,80,64,64 -o detail.png
+  durer render room.yaml --antialias recursive:0.1,3 --stats json > room.json
+
+The format follows the extension: png, jpg, exr, hdr or pfm. The picture is the same whatever
+the number of threads. Ctrl-C stops after the tiles being worked on and saves what is finished;
+the second one quits at once.";
+
+/// Render a scene to a picture file
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    scene: SceneArgs,
+
+    /// The picture file [default: the scene's name with .png, in this folder]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+
+    /// Render only this part: left, top, width and height in pixels
+    #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
+    crop: Option<Region>,
+
+    /// Number of threads [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+
+    /// Print statistics to standard output, in place of the line at the end
+    #[arg(long, value_name = "FORMAT")]
+    stats: Option<StatsFormat>,
+
+    /// Show neither progress nor the line at the end, only warnings and errors
+    #[arg(short, long)]
+    quiet: bool,
+
+    #[command(flatten)]
+    overrides: Overrides,
+
+    #[command(flatten)]
+    file: FileOptions,
+}
+
+/// How statistics are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum StatsFormat {
+    /// As a JSON object
+    Json,
+}
+
+/// Renders the scene.
+pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    let path = arguments.output_path();
+    let format = target::format_of(&path)?;
+    let mut options = arguments.file.encode_options(format)?;
+    let (scene, load) = timed(|| arguments.overrides.apply(arguments.scene.load()?));
+    let scene = scene?;
+    options.transfer = scene.scene().picture.transfer;
+    let interrupt = Interrupt::new(PictureFile::create(&path)?);
+    let (film, build, render) = arguments.trace(&scene, &interrupt)?;
+    let report = Report::new(arguments.scene.path.clone(), path, format, &film);
+    let seconds = Seconds { load, build, render, write: 0.0 };
+    finish(arguments, film, &interrupt, &options, report.with_seconds(seconds))
+}
+
+/// Writes what there is, and says so.
+fn finish(
+    arguments: &Arguments,
+    film: Film,
+    interrupt: &Interrupt,
+    options: &EncodeOptions,
+    mut report: Report,
+) -> Result<Exit, Failure> {
+    let Some(file) = interrupt.take_file().filter(|_| film.finished_pixels() > 0) else {
+        report.tell_nothing();
+        return Err(Failure::Told(Exit::Interrupted));
+    };
+    let (bytes, write) = timed(|| file.write(&film.develop(), options));
+    report.written(bytes?, write);
+    report.tell_bad_samples();
+    match arguments.stats {
+        Some(StatsFormat::Json) => report.print_json()?,
+        None if !arguments.quiet => report.tell(),
+        None => {}
+    }
+    if report.is_complete() {
+        return Ok(Exit::Fine);
+    }
+    report.tell_interrupted();
+    Err(Failure::Told(Exit::Interrupted))
+}
+
+impl Arguments {
+    fn output_path(&self) -> PathBuf {
+        match &self.output {
+            Some(path) => path.clone(),
+            None => PathBuf::from(self.scene.name()).with_extension("png"),
+        }
+    }
+
+    /// The film, and the seconds for building and for tracing.
+    fn trace(&self, scene: &CheckedScene, interrupt: &Interrupt) -> Result<(Film, f64, f64), Failure> {
+        let (compiled, build) = timed(|| durer::compile(scene));
+        let options = RenderOptions { threads: self.threads.map(usize::from), region: self.crop };
+        let bar = Bar::new(interrupt.stop_flag(), self.quiet);
+        let (film, render) = timed(|| durer::render(&compiled, &options, &bar));
+        bar.finish();
+        Ok((film?, build, render))
+    }
+}
+
+/// The value of `work`, and the seconds that it took.
+fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let value = work();
+    (value, start.elapsed().as_secs_f64())
+}
+
+fn crop(text: &str) -> Result<Region, String> {
+    let numbers: Result<Vec<u32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[x, y, width, height]) if width > 0 && height > 0 => Ok(Region { x, y, width, height }),
+        Ok(_) | Err(_) => Err("expected four whole numbers, X,Y,W,H, for example 100,80,64,64".to_owned()),
+    }
+}

@@ -1,0 +1,145 @@
+//! What there is to say about a render: one line for people, an object for programs.
+
+use crate::exit::Failure;
+use crate::numbers::{bytes, short, thousands};
+use crate::output;
+use durer::imaging::FileFormat;
+use durer::{Film, RayCounts, Region};
+use serde_json::json;
+use std::path::PathBuf;
+
+/// All that is known about a render.
+pub(super) struct Report {
+    scene: PathBuf,
+    path: PathBuf,
+    format: FileFormat,
+    region: Region,
+    finished: u64,
+    rays: RayCounts,
+    bad_samples: u64,
+    first_bad_pixel: Option<(u32, u32)>,
+    bytes: usize,
+    seconds: Seconds,
+}
+
+/// Seconds of wall time for each step.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Seconds {
+    pub(super) load: f64,
+    pub(super) build: f64,
+    pub(super) render: f64,
+    pub(super) write: f64,
+}
+
+impl Report {
+    /// What the film says.
+    pub(super) fn new(scene: PathBuf, path: PathBuf, format: FileFormat, film: &Film) -> Report {
+        Report {
+            scene,
+            path,
+            format,
+            region: film.region(),
+            finished: film.finished_pixels(),
+            rays: film.rays(),
+            bad_samples: film.bad_samples(),
+            first_bad_pixel: film.first_bad_pixel(),
+            bytes: 0,
+            seconds: Seconds::default(),
+        }
+    }
+
+    /// With the time that the steps took.
+    pub(super) fn with_seconds(self, seconds: Seconds) -> Report {
+        Report { seconds, ..self }
+    }
+
+    /// The file is written.
+    pub(super) fn written(&mut self, bytes: usize, seconds: f64) {
+        self.bytes = bytes;
+        self.seconds.write = seconds;
+    }
+
+    /// True if every pixel is finished.
+    pub(super) fn is_complete(&self) -> bool {
+        self.finished == self.pixels()
+    }
+
+    fn pixels(&self) -> u64 {
+        u64::from(self.region.width) * u64::from(self.region.height)
+    }
+
+    fn mrays_per_second(&self) -> f64 {
+        if self.seconds.render > 0.0 { self.rays.total() as f64 / self.seconds.render / 1e6 } else { 0.0 }
+    }
+
+    /// The line at the end.
+    pub(super) fn tell(&self) {
+        let Region { width, height, .. } = self.region;
+        let RayCounts { eye, reflected, transmitted, shadow } = self.rays;
+        let Seconds { load, build, render, .. } = self.seconds;
+        output::note(&format!(
+            "{}: {width} × {height} pixels, {}; {} eye, {} reflected, {} transmitted, {} shadow rays, {:.2} Mrays/s; \
+             load {load:.3} s, build {build:.3} s, render {render:.3} s",
+            self.path.display(),
+            bytes(self.bytes as u64),
+            thousands(eye),
+            thousands(reflected),
+            thousands(transmitted),
+            thousands(shadow),
+            self.mrays_per_second(),
+        ));
+    }
+
+    /// Says which samples had no colour.
+    pub(super) fn tell_bad_samples(&self) {
+        let Some((x, y)) = self.first_bad_pixel else { return };
+        output::warning(&format!(
+            "{} of the samples had no finite color and count as black, the first in pixel {x},{y} \
+             (see it with: durer explain {} --pixel {x},{y})",
+            thousands(self.bad_samples),
+            self.scene.display(),
+        ));
+    }
+
+    /// Says that the picture is not complete.
+    pub(super) fn tell_interrupted(&self) {
+        let share = 100.0 * self.finished as f64 / self.pixels() as f64;
+        output::note(&format!(
+            "interrupted: {} has {} of {} pixels ({} %), the others are black",
+            self.path.display(),
+            thousands(self.finished),
+            thousands(self.pixels()),
+            short((share * 10.0).floor() / 10.0),
+        ));
+    }
+
+    /// Says that there is no picture.
+    pub(super) fn tell_nothing(&self) {
+        output::note(&format!("interrupted before any tile was finished: {} is not written", self.path.display()));
+    }
+
+    /// Prints everything for programs.
+    pub(super) fn print_json(&self) -> Result<(), Failure> {
+        let Region { x, y, width, height } = self.region;
+        let RayCounts { eye, reflected, transmitted, shadow } = self.rays;
+        let Seconds { load, build, render, write } = self.seconds;
+        output::print_json(&json!({
+            "scene": self.scene.to_string_lossy(),
+            "output": self.path.to_string_lossy(),
+            "format": self.format.name().to_lowercase(),
+            "bytes": self.bytes,
+            "region": { "x": x, "y": y, "width": width, "height": height },
+            "pixels": self.pixels(),
+            "finished_pixels": self.finished,
+            "complete": self.is_complete(),
+            "rays": {
+                "eye": eye, "reflected": reflected, "transmitted": transmitted, "shadow": shadow,
+                "total": self.rays.total(),
+            },
+            "mrays_per_second": self.mrays_per_second(),
+            "seconds": { "load": load, "build": build, "render": render, "write": write },
+            "bad_samples": self.bad_samples,
+            "first_bad_pixel": self.first_bad_pixel.map(|(x, y)| json!([x, y])),
+        }))
+    }
+}

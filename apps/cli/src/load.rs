@@ -1,0 +1,69 @@
+//! From the path of a scene to the scene, telling what is wrong on the way.
+
+use crate::exit::{Exit, Failure};
+use crate::output;
+use clap::Args;
+use durer::{CheckedScene, Diagnostics, LoadOptions, Loaded};
+use std::path::{Path, PathBuf};
+
+/// Which scene, and what it may read.
+#[derive(Args, Debug)]
+pub(crate) struct SceneArgs {
+    /// The scene file
+    #[arg(value_name = "SCENE")]
+    pub(crate) path: PathBuf,
+
+    /// Let the scene read images in this folder too, not only in its own (may be repeated)
+    #[arg(long, value_name = "DIR")]
+    allow_path: Vec<PathBuf>,
+}
+
+impl SceneArgs {
+    /// The scene's file name without its folders.
+    pub(crate) fn name(&self) -> String {
+        self.path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+    }
+
+    /// Loads the scene. Prints its warnings, or what is wrong with it.
+    pub(crate) fn load(&self) -> Result<CheckedScene, Failure> {
+        match self.try_load()? {
+            Ok(loaded) => {
+                if !loaded.warnings.is_empty() {
+                    tell(&loaded.warnings);
+                }
+                Ok(loaded.scene)
+            }
+            Err(diagnostics) => {
+                tell(&diagnostics);
+                Err(Failure::Told(Exit::Scene))
+            }
+        }
+    }
+
+    /// Loads the scene and prints nothing.
+    ///
+    /// # Errors
+    /// The outer one if the file cannot be read, the inner one if it is wrong.
+    pub(crate) fn try_load(&self) -> Result<Result<Loaded, Diagnostics>, Failure> {
+        readable(&self.path)?;
+        Ok(durer::load_file(&self.path, &self.options()))
+    }
+
+    fn options(&self) -> LoadOptions {
+        LoadOptions { allowed_folders: self.allow_path.clone(), ..LoadOptions::default() }
+    }
+}
+
+/// Finds out whether a file can be opened, so that one that cannot has an exit code of its own.
+fn readable(path: &Path) -> Result<(), Failure> {
+    let cannot = |why: String| Failure::file(format!("cannot read {}: {why}", path.display()));
+    let file = std::fs::File::open(path).map_err(|error| cannot(error.to_string()))?;
+    match file.metadata() {
+        Ok(metadata) if metadata.is_dir() => Err(cannot("it is a folder".to_owned())),
+        Ok(_) | Err(_) => Ok(()),
+    }
+}
+
+fn tell(diagnostics: &Diagnostics) {
+    output::note(&diagnostics.render(output::stderr_has_color()));
+}

@@ -1,0 +1,159 @@
+//! Settings of the scene that the command line may change. The changed scene is checked again, so limits hold.
+
+use crate::exit::Failure;
+use clap::{Args, ValueEnum};
+use durer::CheckedScene;
+use durer::imaging::Transfer;
+use durer::scene::{Antialias, Picture, Problem, Scene, Step};
+
+/// Settings that win over those of the scene file.
+#[derive(Args, Debug, Default)]
+#[command(next_help_heading = "Instead of what the scene says")]
+pub(crate) struct Overrides {
+    /// Width in pixels; without --height the shape of the picture is kept
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(1..))]
+    width: Option<u32>,
+
+    /// Height in pixels; without --width the shape of the picture is kept
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(1..))]
+    height: Option<u32>,
+
+    /// Longest chain of rays; the eye's ray has depth 1
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    max_depth: Option<u32>,
+
+    /// Rays in a pixel: `none`, `grid:N` (N × N) or `recursive[:THRESHOLD[,DEPTH]]`
+    #[arg(long, value_name = "HOW", value_parser = antialias)]
+    antialias: Option<Antialias>,
+
+    /// How light becomes the numbers of a PNG or JPEG
+    #[arg(long, value_name = "CURVE")]
+    transfer: Option<TransferArg>,
+}
+
+/// [`Transfer`] by its words in scene files.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum TransferArg {
+    /// Encoded for screens
+    Srgb,
+    /// The numbers as they are
+    Linear,
+}
+
+impl Overrides {
+    /// The scene with these settings in place of its own.
+    pub(crate) fn apply(&self, scene: CheckedScene) -> Result<CheckedScene, Failure> {
+        let mut scene = scene.into_scene();
+        self.change(&mut scene);
+        scene.check().map_err(|problems| Failure::usage(self.describe(&problems)))
+    }
+
+    fn change(&self, scene: &mut Scene) {
+        let Scene { picture, render, .. } = scene;
+        (picture.width, picture.height) = self.size(picture);
+        render.max_depth = self.max_depth.unwrap_or(render.max_depth);
+        render.antialias = self.antialias.unwrap_or(render.antialias);
+        picture.transfer = match self.transfer {
+            Some(TransferArg::Srgb) => Transfer::Srgb,
+            Some(TransferArg::Linear) => Transfer::Linear,
+            None => picture.transfer,
+        };
+    }
+
+    fn size(&self, picture: &Picture) -> (u32, u32) {
+        let scaled = |length: u32, by: u32, of: u32| {
+            let rounded = (u64::from(length) * u64::from(by) + u64::from(of) / 2) / u64::from(of.max(1));
+            u32::try_from(rounded).unwrap_or(u32::MAX).max(1)
+        };
+        match (self.width, self.height) {
+            (Some(width), Some(height)) => (width, height),
+            (Some(width), None) => (width, scaled(picture.height, width, picture.width)),
+            (None, Some(height)) => (scaled(picture.width, height, picture.height), height),
+            (None, None) => (picture.width, picture.height),
+        }
+    }
+
+    fn describe(&self, problems: &[Problem]) -> String {
+        let lines: Vec<String> = problems
+            .iter()
+            .map(|problem| {
+                let help = problem.help.as_ref().map_or(String::new(), |help| format!(" ({help})"));
+                format!("{}: {}{help}", self.option(problem), problem.message)
+            })
+            .collect();
+        lines.join("\n       ")
+    }
+
+    /// The option that a problem comes from.
+    fn option(&self, problem: &Problem) -> &'static str {
+        let field = |at: usize| match problem.place.steps.get(at) {
+            Some(Step::Field(name)) => *name,
+            Some(Step::Index(_) | Step::Material(_) | Step::Texture(_) | Step::Image(_)) | None => "",
+        };
+        match (field(0), field(1)) {
+            ("picture", "height") if self.height.is_none() => "--width",
+            ("picture", "width") if self.width.is_none() => "--height",
+            ("picture", "height") => "--height",
+            ("picture", _) => "--width",
+            ("render", "max_depth") => "--max-depth",
+            ("render", _) => "--antialias",
+            _ => "the scene with these options",
+        }
+    }
+}
+
+fn antialias(text: &str) -> Result<Antialias, String> {
+    let wrong = || "expected `none`, `grid:N` or `recursive[:THRESHOLD[,DEPTH]]`".to_owned();
+    let (kind, numbers) = match text.split_once(':') {
+        Some((kind, numbers)) => (kind, Some(numbers)),
+        None => (text, None),
+    };
+    match (kind, numbers) {
+        ("none", None) => Ok(Antialias::None),
+        ("grid", Some(n)) => Ok(Antialias::Grid { n: n.parse().map_err(|_| wrong())? }),
+        ("recursive", numbers) => recursive(numbers).ok_or_else(wrong),
+        _ => Err(wrong()),
+    }
+}
+
+fn recursive(numbers: Option<&str>) -> Option<Antialias> {
+    // What scene files take where these are not given.
+    let (mut threshold, mut max_depth) = (0.3, 5);
+    let mut numbers = numbers.into_iter().flat_map(|numbers| numbers.split(','));
+    if let Some(text) = numbers.next() {
+        threshold = text.parse().ok()?;
+    }
+    if let Some(text) = numbers.next() {
+        max_depth = text.parse().ok()?;
+    }
+    numbers.next().is_none().then_some(Antialias::Recursive { threshold, max_depth })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn antialias_is_read() {
+        let recursive = |threshold, max_depth| Ok(Antialias::Recursive { threshold, max_depth });
+        assert_eq!(antialias("none"), Ok(Antialias::None));
+        assert_eq!(antialias("grid:4"), Ok(Antialias::Grid { n: 4 }));
+        assert_eq!(antialias("recursive"), recursive(0.3, 5));
+        assert_eq!(antialias("recursive:0.1"), recursive(0.1, 5));
+        assert_eq!(antialias("recursive:0.1,2"), recursive(0.1, 2));
+        for wrong in ["", "grid", "grid:x", "none:1", "recursive:", "recursive:1,2,3", "recursive:,2", "4"] {
+            assert!(antialias(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn one_length_keeps_the_shape() {
+        let size = |width, height| Overrides { width, height, ..Overrides::default() }.size(&Picture::default());
+        assert_eq!(size(None, None), (640, 480));
+        assert_eq!(size(Some(320), None), (320, 240));
+        assert_eq!(size(None, Some(96)), (128, 96));
+        assert_eq!(size(Some(7), Some(9)), (7, 9));
+        assert_eq!(size(Some(1), None), (1, 1));
+        assert_eq!(size(None, Some(u32::MAX)), (u32::MAX, u32::MAX));
+    }
+}

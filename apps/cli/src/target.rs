@@ -1,0 +1,85 @@
+//! The picture file that is to be written: its format, by the extension of its name, and the options of that format.
+
+use crate::exit::Failure;
+use clap::{Args, ValueEnum};
+use durer::imaging::{EncodeOptions, ExrSamples, FileFormat, PngDepth};
+use std::path::Path;
+
+/// Options of picture files.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "The file")]
+pub(crate) struct FileOptions {
+    /// Bits of a component: 8 or 16 in PNG [default: 8], half or float in EXR [default: half]
+    #[arg(long, value_name = "BITS")]
+    bit_depth: Option<BitDepth>,
+
+    /// Quality of JPEG, from 1 to 100 [default: 92]
+    #[arg(long, value_name = "1-100", value_parser = clap::value_parser!(u8).range(1..=100))]
+    quality: Option<u8>,
+}
+
+/// Precision of files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum BitDepth {
+    /// 8 bits (PNG)
+    #[value(name = "8")]
+    Eight,
+    /// 16 bits (PNG)
+    #[value(name = "16")]
+    Sixteen,
+    /// Half-precision floating point (EXR)
+    Half,
+    /// Single-precision floating point (EXR)
+    Float,
+}
+
+/// The format that a file's name stands for.
+pub(crate) fn format_of(path: &Path) -> Result<FileFormat, Failure> {
+    if path == Path::new("-") {
+        return Err(Failure::usage("pictures cannot be written to standard output: give a file name in place of `-`"));
+    }
+    FileFormat::from_path(path).map_err(|error| Failure::usage(format!("{}: {error}", path.display())))
+}
+
+/// The usual options of a format, and what every picture of ours says about its origin: neither time nor place, for
+/// the same scene gives the same bytes everywhere.
+pub(crate) fn usual(format: FileFormat) -> EncodeOptions {
+    let software = concat!("durer ", env!("CARGO_PKG_VERSION"));
+    EncodeOptions { metadata: vec![("Software".to_owned(), software.to_owned())], ..EncodeOptions::new(format) }
+}
+
+impl FileOptions {
+    /// How to encode in `format`; fails if an option belongs to another one.
+    pub(crate) fn encode_options(&self, format: FileFormat) -> Result<EncodeOptions, Failure> {
+        let mut options = usual(format);
+        match (self.bit_depth, format) {
+            (None, _) | (Some(BitDepth::Eight), FileFormat::Png | FileFormat::Jpeg) => {}
+            (Some(BitDepth::Sixteen), FileFormat::Png) => options.png_depth = PngDepth::Sixteen,
+            (Some(BitDepth::Half), FileFormat::Exr) => options.exr_samples = ExrSamples::Half,
+            (Some(BitDepth::Float), FileFormat::Exr) => options.exr_samples = ExrSamples::Float,
+            (Some(BitDepth::Float), FileFormat::Pfm) => {}
+            (Some(_), FileFormat::Png | FileFormat::Jpeg | FileFormat::Exr | FileFormat::Hdr | FileFormat::Pfm) => {
+                return Err(Failure::usage(bit_depth_message(format)));
+            }
+        }
+        match (self.quality, format) {
+            (None, _) => {}
+            (Some(quality), FileFormat::Jpeg) => options.jpeg_quality = quality,
+            (Some(_), FileFormat::Png | FileFormat::Exr | FileFormat::Hdr | FileFormat::Pfm) => {
+                return Err(Failure::usage(format!("--quality is for JPEG; {} loses nothing by it", format.name())));
+            }
+        }
+        Ok(options)
+    }
+}
+
+fn bit_depth_message(format: FileFormat) -> String {
+    let known = match format {
+        FileFormat::Png => "8 or 16",
+        FileFormat::Jpeg => "8",
+        FileFormat::Exr => "half or float",
+        FileFormat::Hdr => "no choice",
+        FileFormat::Pfm => "float",
+    };
+    format!("--bit-depth: {} has {known}", format.name())
+}

@@ -1,0 +1,65 @@
+//! Ctrl-C while rendering.
+
+#![cfg(unix)]
+
+use crate::workshop::{Ran, Workshop};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// Long enough for a signal to come in time: 1.5 million pixels of 4096 rays each.
+const LONG: &str = "render room.yaml --width 1500 --antialias grid:64 --threads 2";
+
+fn start(workshop: &Workshop, words: &str) -> Child {
+    let mut command = workshop.command(words);
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    // The file beside the picture is there once rendering is about to begin.
+    let patience = Instant::now() + Duration::from_secs(60);
+    while !workshop.names().iter().any(|name| name.ends_with(".part")) {
+        assert!(Instant::now() < patience, "rendering does not begin");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child
+}
+
+fn interrupt(child: &Child) {
+    let status = Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status().unwrap();
+    assert!(status.success());
+}
+
+fn end(child: Child) -> Ran {
+    child.wait_with_output().unwrap().into()
+}
+
+#[test]
+fn the_first_one_saves_what_is_finished() {
+    let workshop = Workshop::new();
+    let child = start(&workshop, LONG);
+    std::thread::sleep(Duration::from_millis(1500));
+    interrupt(&child);
+    let ran = end(child);
+    assert_eq!(ran.code, Some(130), "{}", ran.stderr);
+    assert!(ran.stderr.contains("interrupted"), "{}", ran.stderr);
+    assert!(!workshop.names().iter().any(|name| name.ends_with(".part")), "{:?}", workshop.names());
+    // On a machine too slow for a single tile there is no picture, and the program says so.
+    if ran.stderr.contains("is not written") {
+        return assert!(!workshop.path("room.png").exists());
+    }
+    let picture = workshop.picture("room.png");
+    assert_eq!((picture.width, picture.height), (1500, 1000));
+    assert!(
+        picture.pixels.iter().any(|color| color.is_black()) && picture.pixels.iter().any(|color| !color.is_black())
+    );
+}
+
+#[test]
+fn the_second_one_ends_at_once_and_leaves_nothing() {
+    let workshop = Workshop::new();
+    let child = start(&workshop, LONG);
+    std::thread::sleep(Duration::from_millis(300));
+    interrupt(&child);
+    std::thread::sleep(Duration::from_millis(20));
+    interrupt(&child);
+    let ran = end(child);
+    assert_eq!(ran.code, Some(130), "{}", ran.stderr);
+    assert!(!workshop.names().iter().any(|name| name.ends_with(".part")), "{:?}", workshop.names());
+}

@@ -1,0 +1,9 @@
+//! The program, run as a program: what it writes, what it says, and how it ends.
+
+mod compare;
+mod explain;
+mod inspect;
+mod interrupt;
+mod render;
+mod texts;
+mod workshop;

@@ -1,0 +1,156 @@
+//! `durer render`.
+
+use crate::workshop::Workshop;
+use durer::math::Rgb;
+
+#[test]
+fn the_picture_is_named_after_the_scene_and_one_line_tells_of_it() {
+    let workshop = Workshop::new();
+    let ran = workshop.fine("render room.yaml");
+    assert_eq!(workshop.names(), ["bad.yaml", "room.png", "room.yaml"]);
+    assert_eq!((workshop.picture("room.png").width, workshop.picture("room.png").height), (24, 16));
+    assert_eq!(ran.stdout, "");
+    assert_eq!(ran.stderr.lines().count(), 1, "{}", ran.stderr);
+    assert!(ran.stderr.starts_with("room.png: 24 × 16 pixels") && ran.stderr.contains("384 eye"), "{}", ran.stderr);
+    assert!(!ran.stderr.contains(['\r', '\x1b']), "no progress bar in a pipe");
+}
+
+#[test]
+fn the_picture_of_a_scene_elsewhere_is_written_here() {
+    let workshop = Workshop::new();
+    std::fs::create_dir(workshop.path("scenes")).unwrap();
+    std::fs::rename(workshop.path("room.yaml"), workshop.path("scenes/hall.yaml")).unwrap();
+    assert_eq!(workshop.fine("render scenes/hall.yaml --quiet").stderr, "");
+    assert_eq!(workshop.names(), ["bad.yaml", "hall.png", "scenes"]);
+}
+
+#[test]
+fn every_format_is_written_and_read() {
+    let workshop = Workshop::new();
+    workshop.fine("render room.yaml -o a.pfm");
+    let exact = workshop.picture("a.pfm");
+    let cases = [
+        ("b.png", 0.02),
+        ("c.png --bit-depth 16", 1e-4),
+        ("d.exr", 1e-3),
+        ("e.exr --bit-depth float", 0.0),
+        ("f.hdr", 0.02),
+        ("g.jpg --quality 100", 0.3),
+        ("h.JPEG", 0.5),
+    ];
+    for (file, tolerance) in cases {
+        workshop.fine(&format!("render room.yaml -o {file}"));
+        let picture = workshop.picture(file.split(' ').next().unwrap());
+        for (a, b) in picture.pixels.iter().zip(&exact.pixels) {
+            let away =
+                (*a - b.map(|v| v.min(if file.starts_with(['d', 'e', 'f']) { f32::MAX } else { 1.0 }))).map(f32::abs);
+            assert!(away.max_component() <= tolerance, "{file}: {a:?} is not {b:?}");
+        }
+    }
+    let (plain, deep) = (workshop.bytes("b.png"), workshop.bytes("c.png"));
+    assert_eq!((plain[24], deep[24]), (8, 16), "bit depth in the PNG header");
+    assert!(plain.windows(11).any(|bytes| bytes == b"durer 0.1.0"));
+}
+
+#[test]
+fn wrong_outputs_are_found_before_rendering() {
+    let workshop = Workshop::new();
+    workshop.fails("render room.yaml -o a.gif", 2, "extension `gif`");
+    workshop.fails("render room.yaml -o a", 2, "no extension");
+    workshop.fails("render room.yaml -o -", 2, "standard output");
+    workshop.fails("render room.yaml -o no/such/a.png", 4, "no/such/a.png");
+    workshop.fails("render room.yaml -o a.png --bit-depth half", 2, "8 or 16");
+    workshop.fails("render room.yaml -o a.exr --bit-depth 16", 2, "half or float");
+    workshop.fails("render room.yaml -o a.png --quality 80", 2, "--quality");
+    assert_eq!(workshop.names(), ["bad.yaml", "room.yaml"]);
+}
+
+#[test]
+fn wrong_scenes_have_an_exit_code_of_their_own() {
+    let workshop = Workshop::new();
+    let ran = workshop.fails("render bad.yaml", 3, "radius");
+    assert!(ran.stderr.contains("bad.yaml:2") && ran.stderr.contains("bad.yaml:3"), "both are told: {}", ran.stderr);
+    workshop.fails("render missing.yaml", 4, "missing.yaml");
+    workshop.fails("render .", 2, "extension");
+    workshop.fails("render . -o a.png", 4, "folder");
+    assert_eq!(workshop.names(), ["bad.yaml", "room.yaml"]);
+}
+
+#[test]
+fn the_command_line_wins_over_the_file() {
+    let workshop = Workshop::new();
+    let size = |options: &str| {
+        workshop.fine(&format!("render room.yaml -o a.pfm {options}"));
+        let picture = workshop.picture("a.pfm");
+        (picture.width, picture.height)
+    };
+    assert_eq!(size("--width 12"), (12, 8));
+    assert_eq!(size("--height 32"), (48, 32));
+    assert_eq!(size("--width 10 --height 3"), (10, 3));
+    let different = |options: &str| {
+        workshop.fine("render room.yaml -o plain.png");
+        workshop.fine(&format!("render room.yaml -o other.png {options}"));
+        workshop.bytes("plain.png") != workshop.bytes("other.png")
+    };
+    assert!(!different("--antialias none --max-depth 5 --transfer srgb"));
+    assert!(different("--antialias grid:2"));
+    assert!(different("--max-depth 1"));
+    assert!(different("--transfer linear"));
+}
+
+#[test]
+fn settings_beyond_the_limits_name_their_option() {
+    let workshop = Workshop::new();
+    workshop.fails("render room.yaml --width 4000000000", 2, "--width");
+    workshop.fails("render room.yaml --height 4000000000", 2, "--height");
+    workshop.fails("render room.yaml --width 0", 2, "--width");
+    workshop.fails("render room.yaml --antialias grid:100000", 2, "--antialias");
+    workshop.fails("render room.yaml --antialias recursive:nan", 2, "--antialias");
+    workshop.fails("render room.yaml --antialias often", 2, "recursive[:THRESHOLD");
+    workshop.fails("render room.yaml --max-depth 100000", 2, "--max-depth");
+    workshop.fails("render room.yaml --crop 20,0,5,5", 2, "--crop");
+    workshop.fails("render room.yaml --crop 1,2,3", 2, "--crop");
+    workshop.fails("render room.yaml --threads 0", 2, "--threads");
+}
+
+#[test]
+fn a_crop_is_that_part_of_the_whole() {
+    let workshop = Workshop::new();
+    workshop.fine("render room.yaml -o whole.pfm");
+    workshop.fine("render room.yaml -o part.pfm --crop 5,3,9,7");
+    let (whole, part) = (workshop.picture("whole.pfm"), workshop.picture("part.pfm"));
+    assert_eq!((part.width, part.height), (9, 7));
+    let bits = |color: Rgb| color.to_array().map(f32::to_bits);
+    for y in 0..7 {
+        for x in 0..9 {
+            assert_eq!(bits(part.pixel(x, y)), bits(whole.pixel(x + 5, y + 3)), "{x},{y}");
+        }
+    }
+}
+
+#[test]
+fn threads_change_no_byte() {
+    let workshop = Workshop::new();
+    for format in ["png", "exr"] {
+        for threads in [1, 2, 5] {
+            workshop.fine(&format!("render room.yaml --width 150 --threads {threads} -o {threads}.{format}"));
+        }
+        assert_eq!(workshop.bytes(&format!("1.{format}")), workshop.bytes(&format!("2.{format}")));
+        assert_eq!(workshop.bytes(&format!("1.{format}")), workshop.bytes(&format!("5.{format}")));
+    }
+}
+
+#[test]
+fn statistics_are_json_in_place_of_the_line() {
+    let workshop = Workshop::new();
+    let ran = workshop.fine("render room.yaml --stats json --crop 0,0,10,5");
+    assert_eq!(ran.stderr, "");
+    let stats = ran.json();
+    assert_eq!((&stats["complete"], &stats["finished_pixels"]), (&true.into(), &50.into()));
+    assert_eq!((&stats["rays"]["eye"], &stats["region"]["width"]), (&50.into(), &10.into()));
+    assert_eq!((&stats["output"], &stats["bytes"]), (&"room.png".into(), &workshop.bytes("room.png").len().into()));
+    let total: u64 =
+        ["eye", "reflected", "transmitted", "shadow"].iter().map(|k| stats["rays"][k].as_u64().unwrap()).sum();
+    assert_eq!(stats["rays"]["total"], total);
+    assert!(["load", "build", "render", "write"].iter().all(|step| stats["seconds"][step].as_f64().unwrap() >= 0.0));
+}
