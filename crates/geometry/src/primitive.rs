@@ -176,7 +176,7 @@ impl Primitive {
     #[inline]
     pub fn intersect(&self, ray: &Ray, t_max: f64) -> Option<Crossing> {
         // Mapped in each arm anew, so that the compiler drops the coordinates that a flat shape does not look at.
-        each_kind!(&self.kind, shape => shape.intersect(&self.ray_to_shape(ray), t_max))
+        each_kind!(&self.kind, shape => shape.intersect(&self.ray_in_shape(ray), t_max))
     }
 
     /// How often the ray crosses it with 0 < t < `t_max`.
@@ -201,7 +201,7 @@ impl Primitive {
 
     #[inline(always)]
     fn surface_of(&self, shape: &impl Shape, near: DVec3, part: u32) -> Surface {
-        let (snapped, normal) = shape.surface(self.to_shape(near), part);
+        let (snapped, normal) = shape.surface(self.in_shape(near), part);
         let point = self.origin + self.world_from_shape * snapped;
         let (normal, per_stretch) = match self.flat {
             Some(known) => known,
@@ -218,24 +218,24 @@ impl Primitive {
 
     /// Texture coordinates at a point of the surface.
     pub fn uv(&self, point: DVec3, part: u32) -> DVec2 {
-        let point = self.to_shape(point);
+        let point = self.in_shape(point);
         each_kind!(&self.kind, shape => shape.uv(point, part))
     }
 
     /// True for a point inside; always false for what has no inside.
     pub fn contains(&self, point: DVec3) -> bool {
-        let point = self.to_shape(point);
+        let point = self.in_shape(point);
         each_kind!(&self.kind, shape => shape.contains(point))
     }
 
     #[inline(always)]
-    fn ray_to_shape(&self, ray: &Ray) -> Ray {
-        Ray { origin: self.to_shape(ray.origin), direction: self.shape_from_world * ray.direction }
+    fn ray_in_shape(&self, ray: &Ray) -> Ray {
+        Ray { origin: self.in_shape(ray.origin), direction: self.shape_from_world * ray.direction }
     }
 
     /// Subtracting first keeps small things far from the origin sharp.
     #[inline(always)]
-    fn to_shape(&self, point: DVec3) -> DVec3 {
+    fn in_shape(&self, point: DVec3) -> DVec3 {
         self.shape_from_world * (point - self.origin)
     }
 }

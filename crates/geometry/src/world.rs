@@ -226,3 +226,6 @@ impl Best {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

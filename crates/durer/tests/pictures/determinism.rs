@@ -1,0 +1,101 @@
+//! The same scene gives the same bytes, however it is rendered.
+
+use crate::room::room;
+use crate::support::{compile, explained};
+use durer::scene::Antialias;
+use durer::{CompiledScene, Film, Region, RenderOptions};
+
+const MODES: [Antialias; 4] = [
+    Antialias::None,
+    Antialias::Grid { n: 1 },
+    Antialias::Grid { n: 3 },
+    Antialias::Recursive { threshold: 0.1, max_depth: 2 },
+];
+
+/// The seed's room in a small size, which is no multiple of a tile.
+fn small_room(antialias: Antialias, width: u32, height: u32) -> CompiledScene {
+    let mut scene = room();
+    scene.render.antialias = antialias;
+    (scene.picture.width, scene.picture.height) = (width, height);
+    compile(scene)
+}
+
+fn rendered(scene: &CompiledScene, options: &RenderOptions) -> Film {
+    durer::render(scene, options, &()).expect("a picture")
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_film() {
+    for antialias in MODES {
+        let scene = small_room(antialias, 75, 70);
+        let one = rendered(&scene, &RenderOptions { threads: Some(1), region: None });
+        assert_eq!(one.finished_pixels(), 75 * 70);
+        for threads in [2, 3, 8] {
+            let many = rendered(&scene, &RenderOptions { threads: Some(threads), region: None });
+            assert!(one == many, "{threads} threads, {antialias:?}");
+        }
+    }
+}
+
+#[test]
+fn compiling_again_gives_the_same_film() {
+    let film = || rendered(&small_room(MODES[3], 40, 33), &RenderOptions::default());
+    assert!(film() == film());
+}
+
+#[test]
+fn a_region_is_the_same_part_of_the_whole() {
+    for antialias in MODES {
+        let scene = small_room(antialias, 75, 70);
+        let whole = rendered(&scene, &RenderOptions::default()).develop();
+        for region in [(0, 0, 75, 70), (13, 7, 40, 35), (74, 69, 1, 1), (5, 0, 1, 70), (0, 33, 75, 2)] {
+            let (x, y, width, height) = region;
+            let region = Region { x, y, width, height };
+            let film = rendered(&scene, &RenderOptions { threads: None, region: Some(region) });
+            assert_eq!(film.region(), region);
+            let part = film.develop();
+            for row in 0..height {
+                for column in 0..width {
+                    assert_eq!(part.pixel(column, row), whole.pixel(x + column, y + row), "{antialias:?} {region:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_region_must_lie_within_the_picture() {
+    let scene = small_room(Antialias::None, 20, 10);
+    for (x, y, width, height) in [(0, 0, 21, 1), (20, 0, 1, 1), (0, 0, 0, 5), (u32::MAX, 0, 2, 2), (0, 9, 1, 2)] {
+        let region = Some(Region { x, y, width, height });
+        assert!(durer::render(&scene, &RenderOptions { threads: None, region }, &()).is_err());
+    }
+}
+
+/// Also that the colour is the sum of the contributions in their order, to the last bit.
+#[test]
+fn explain_shows_every_pixel_of_the_room_as_it_was_rendered() {
+    for antialias in MODES {
+        let scene = small_room(antialias, 36, 30);
+        let film = rendered(&scene, &RenderOptions::default());
+        let mut rays = 0;
+        let counted = film.rays();
+        let image = film.develop();
+        for pixel in explained(&scene) {
+            let rendered = image.pixel(pixel.x, pixel.y);
+            assert_eq!(pixel.color, rendered, "{antialias:?} ({}, {})", pixel.x, pixel.y);
+            assert_eq!(pixel.sum(), rendered, "{antialias:?} ({}, {})", pixel.x, pixel.y);
+            rays += pixel.samples.len() as u64;
+            let kept: f32 = pixel.samples.iter().filter_map(|sample| sample.weight).sum();
+            assert!((kept - 1.0).abs() < 1e-6, "the weights are one pixel together");
+        }
+        assert_eq!(rays, counted.eye, "{antialias:?}");
+    }
+}
+
+#[test]
+fn there_is_nothing_to_explain_outside_of_the_picture() {
+    let scene = small_room(Antialias::None, 20, 10);
+    assert!(durer::explain(&scene, 20, 0).is_none() && durer::explain(&scene, 0, 10).is_none());
+    assert!(durer::explain(&scene, 19, 9).is_some());
+}

@@ -1,0 +1,26 @@
+//! Whole pictures against closed forms: what a scene file says must be seen, computed by hand and not by us.
+//!
+//! Every scene is written in its test. Most are seen along one ray ([`support::look`]), whose colour has a formula.
+
+// The expected values must not come from the functions under test.
+#![allow(clippy::disallowed_methods, reason = "expected values are computed by the platform's functions, on purpose")]
+
+mod antialias;
+mod cameras;
+mod clear;
+mod determinism;
+mod fog;
+mod lights;
+mod mirrors;
+mod motions;
+mod refraction;
+mod robustness;
+mod room;
+mod seed_tracer;
+mod shading;
+mod shadows;
+mod silhouettes;
+mod support;
+mod textures;
+mod transforms;
+mod transparent_shadows;
