@@ -65,6 +65,10 @@ pub(crate) fn load(text: &str, assets: &dyn Assets, limits: &Limits) -> (Option<
         Err(problems) => {
             for problem in problems.into_iter().take(decode::MOST_COMPLAINTS) {
                 let span = place::span_of(&problem.place, &root, &decoder);
+                let doubtful = |near: &Span| near.start <= span.start && span.end <= near.end;
+                if decoder.doubtful.iter().any(doubtful) {
+                    continue;
+                }
                 complaints.push(Complaint::error(span, problem.message).maybe_help(problem.help));
             }
             (None, complaints)

@@ -66,9 +66,10 @@ objects: [rectangle: {{corner: [-9, -9, 0], edges: [[{}, 0, 0], [0, 18, 0]], mat
     assert_eq!(pixel("{grid: 4}", 0.025), 0.25);
     let fine = "{recursive: {threshold: 0.1, max_depth: 5}}";
     assert_eq!(pixel(fine, 0.05), 0.5);
-    assert_eq!(pixel(fine, 0.075), 0.75);
-    // At the finest, columns are 1/64 of a pixel wide; the edge is between the middles of two.
-    assert!((pixel(fine, 0.033) - 0.33).abs() <= 0.5 / 64.0);
+    // Halves that are covered, as far as the rays in them tell: 1/4 + 1/16 + 1/64; and 1/2 + 1/4, for the next rays
+    // after 0.7 of the pixel are at 0.6875, inside, and 0.8125, outside.
+    assert_eq!(pixel(fine, 0.033), 0.328_125);
+    assert_eq!(pixel(fine, 0.07), 0.75);
 }
 
 /// A disc of radius 1.5, of pixels of 0.1: the sum of all pixels is its area.

@@ -55,9 +55,7 @@ fn of_the_background_nothing_is_left() {
 #[test]
 fn in_a_mirror_each_segment_has_its_own_fog() {
     let mirror = "  - plane: {point: [0, 0, 15], normal: [0, 0, 1], material: {color: 0, reflection: 0.8}}\n";
-    for (fog, first, second) in
-        [(EXPONENTIAL, (-0.5_f64).exp(), (-0.75_f64).exp()), (LINEAR, 0.75, 0.5)]
-    {
+    for (fog, first, second) in [(EXPONENTIAL, (-0.5_f64).exp(), (-0.75_f64).exp()), (LINEAR, 0.75, 0.5)] {
         let reflected = veiled(WALL, second).map(|c| 0.8 * c);
         let text = format!("{fog}{SCENE}{mirror}");
         assert_color(look(&text, [0.0, 0.0, 5.0], [0.0, 0.0, 15.0]).color, veiled(reflected, first));

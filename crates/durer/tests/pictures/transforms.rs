@@ -107,7 +107,9 @@ fn nested_groups_multiply() {
 
 #[test]
 fn negative_scale_is_a_mirror_image() {
-    for (mirrored, light) in [("[-1, 1, 1]", "[1, -1, -2]"), ("[1, -1, 1]", "[-1, 1, -2]"), ("[-1, -1, 1]", "[1, 1, -2]")] {
+    for (mirrored, light) in
+        [("[-1, 1, 1]", "[1, -1, -2]"), ("[1, -1, 1]", "[-1, 1, -2]"), ("[-1, -1, 1]", "[1, 1, -2]")]
+    {
         let image = still_life(&format!("transform: [scale: {mirrored}]"), light);
         let original = still_life("transform: []", "[-1, -1, -2]");
         let last = image.width - 1;

@@ -62,7 +62,7 @@ fn glass_tints_its_shadow_by_the_length_of_the_way_through_it() {
     assert_color(visibility(&tinted("transparency: 1, ior: 1.5, "), above, floor), left);
     assert_color(visibility(&tinted("transparency: 0.5, "), above, floor), left.map(|c| 0.25 * c));
     // Off the axis: the light's ray through (x, 0, 0) passes the ball's middle at 5 sin a, tan a = x / 10.
-    for x in [0.5, 1.0, 1.9] {
+    for x in [0.5_f64, 1.0, 1.9] {
         let sin = x / (100.0 + x * x).sqrt();
         let chord = 2.0 * (1.0 - 25.0 * sin * sin).sqrt();
         let left = [0.5_f64.powf(chord / 4.0), 0.8_f64.powf(chord / 4.0), 1.0];

@@ -33,6 +33,8 @@ pub(crate) struct Decoder<'a> {
     pub(crate) images: BTreeMap<String, Option<ImageId>>,
     /// Pixels of all images so far.
     pub(crate) texels: u64,
+    /// Values that stand beside one that could not be read: what the check says of them may come from the stand-in.
+    pub(crate) doubtful: Vec<Span>,
 }
 
 impl<'a> Decoder<'a> {
@@ -41,6 +43,7 @@ impl<'a> Decoder<'a> {
             complaints: Vec::new(),
             assets,
             limits,
+            doubtful: Vec::new(),
             scene: Scene::default(),
             texture_names: BTreeMap::new(),
             material_names: BTreeMap::new(),
@@ -190,8 +193,8 @@ impl<'n, 'd, 'a> Fields<'n, 'd, 'a> {
         let _: Option<()> = self.cx.complain(complaint);
     }
 
-    /// Refuses fields that nobody asked for; true if all went well.
-    pub(crate) fn finish(mut self) -> bool {
+    /// Refuses fields that nobody asked for. If a value could not be read, those beside it become doubtful.
+    pub(crate) fn finish(self) {
         for (key, value) in self.entries {
             let name = key.text().unwrap_or_default();
             if !self.asked.contains(&name) {
@@ -201,10 +204,18 @@ impl<'n, 'd, 'a> Fields<'n, 'd, 'a> {
                     "scene" => format!("unknown field `{}`", shorten(name)),
                     title => format!("unknown field `{}` of `{title}`", shorten(name)),
                 };
-                self.break_with(Complaint::error(key.span, message).help(help));
+                let _: Option<()> = self.cx.complain(Complaint::error(key.span, message).help(help));
             }
         }
-        !self.broken
+        if self.broken {
+            let nests = |value: &Node| match &value.kind {
+                NodeKind::Mapping(_) => true,
+                NodeKind::Sequence(items) => items.iter().any(|item| matches!(item.kind, NodeKind::Mapping(_))),
+                NodeKind::Scalar { .. } => false,
+            };
+            let beside = self.entries.iter().filter(|(_, value)| !nests(value)).map(|(_, value)| value.span);
+            self.cx.doubtful.extend(beside.chain([self.title_span]));
+        }
     }
 }
 

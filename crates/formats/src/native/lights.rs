@@ -70,7 +70,8 @@ impl Value for Light {
         from.set_example(example_of::<LightKind>(word));
         let kind = LightKind::read(word, &mut from);
         let Shine { color, intensity, name } = Shine::read(&mut from);
-        from.finish().then_some(Light { name, color, intensity, kind: kind? })
+        from.finish();
+        Some(Light { name, color, intensity, kind: kind? })
     }
     fn encode(&self, writer: &Writer<'_>) -> Out {
         let mut out = FieldsOut::new(writer);

@@ -127,7 +127,8 @@ impl Value for Object {
             None => ObjectKind::Group(Members::read(&mut from).objects),
         };
         let Placing { name, material, transform } = Placing::read(&mut from);
-        from.finish().then_some(Object { name, material, transform, kind })
+        from.finish();
+        Some(Object { name, material, transform, kind })
     }
     fn encode(&self, writer: &Writer<'_>) -> Out {
         let Object { name, material, transform, kind } = self;

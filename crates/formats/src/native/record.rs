@@ -91,14 +91,16 @@ pub(crate) fn decode_choice<C: Choice>(node: &Rc<Node>, cx: &mut Decoder<'_>) ->
     let word = fields.word();
     fields.set_example(example_of::<C>(word));
     let value = C::read(word, &mut fields);
-    if fields.finish() { value } else { None }
+    fields.finish();
+    value
 }
 
 /// Reads a record from a mapping; `title` is what messages call it.
 pub(crate) fn decode_record<R: Record>(title: &'static str, node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<R> {
     let mut fields = Fields::of_record(node, cx, title)?;
     let value = R::read(&mut fields);
-    fields.finish().then_some(value)
+    fields.finish();
+    Some(value)
 }
 
 /// Writes a choice: a bare word if no field is worth writing.

@@ -145,7 +145,8 @@ impl Value for Texture {
         from.set_example(example_of::<Pattern>(word));
         let pattern = Pattern::read(word, &mut from);
         let Placing { transform } = Placing::read(&mut from);
-        from.finish().then_some(Texture { name: None, transform, pattern: pattern? })
+        from.finish();
+        Some(Texture { name: None, transform, pattern: pattern? })
     }
     fn encode(&self, writer: &Writer<'_>) -> Out {
         let mut out = FieldsOut::new(writer);
