@@ -140,7 +140,12 @@ impl Primitive {
         let inverse = world.inverse();
         let flat = match kind {
             Kind::Plane(_) | Kind::Disc(_) | Kind::Rectangle(_) => Some(outward_normal(&inverse, DVec3::Y)),
-            Kind::Sphere(_) | Kind::Cuboid(_) | Kind::Cylinder(_) | Kind::Cone(_) | Kind::Triangle(_) | Kind::Torus(_) => None,
+            Kind::Sphere(_)
+            | Kind::Cuboid(_)
+            | Kind::Cylinder(_)
+            | Kind::Cone(_)
+            | Kind::Triangle(_)
+            | Kind::Torus(_) => None,
         };
         Primitive {
             flat,

@@ -217,9 +217,7 @@ impl Best {
     fn offer(&mut self, primitive: u32, crossing: Crossing) {
         let wins = match self.hit {
             None => crossing.t < self.t_max,
-            Some(best) => {
-                crossing.t < best.crossing.t || (crossing.t == best.crossing.t && primitive < best.primitive)
-            }
+            Some(best) => crossing.t < best.crossing.t || (crossing.t == best.crossing.t && primitive < best.primitive),
         };
         if wins {
             self.hit = Some(Hit { crossing, primitive });

@@ -6,7 +6,9 @@ use crate::materials::Material;
 use crate::textures::Textures;
 use durer_geometry::{Bounds, Primitive, Vantage, World};
 use durer_math::{DAffine3, DVec2, Rgb};
-use durer_scene::{Background, CheckedScene, Fog, MaterialId, Object, ObjectKind, Picture, RenderSettings, Scene, Shape};
+use durer_scene::{
+    Background, CheckedScene, Fog, MaterialId, Object, ObjectKind, Picture, RenderSettings, Scene, Shape,
+};
 
 /// Seen by all rays that look for something opaque.
 pub(crate) const OPAQUE: u32 = 1;

@@ -21,9 +21,8 @@ pub(crate) struct Material {
 
 impl Material {
     pub(crate) fn compile(material: &durer_scene::Material) -> Material {
-        let exponent = |a: &durer_scene::Attenuation| {
-            a.color.map(|c| (functions::ln(f64::from(c)) / a.distance) as f32)
-        };
+        let exponent =
+            |a: &durer_scene::Attenuation| a.color.map(|c| (functions::ln(f64::from(c)) / a.distance) as f32);
         Material {
             color: material.color,
             ambient: material.ambient,

@@ -64,11 +64,7 @@ impl std::fmt::Display for RenderError {
 impl std::error::Error for RenderError {}
 
 /// Renders the scene, or a region of it. If `progress` stops it, the film holds what was finished.
-pub fn render(
-    scene: &CompiledScene,
-    options: &RenderOptions,
-    progress: &dyn Progress,
-) -> Result<Film, RenderError> {
+pub fn render(scene: &CompiledScene, options: &RenderOptions, progress: &dyn Progress) -> Result<Film, RenderError> {
     let (width, height) = scene.picture_size();
     let region = options.region.unwrap_or(Region { x: 0, y: 0, width, height });
     let fits = |start: u32, length: u32, limit: u32| length > 0 && start < limit && length <= limit - start;
@@ -96,7 +92,8 @@ pub fn render(
 
 /// Cuts a region into tiles, row by row.
 fn tiles(region: Region) -> Vec<Region> {
-    let starts = |from: u32, length: u32| (0..length).step_by(TILE as usize).map(move |d| (from + d, TILE.min(length - d)));
+    let starts =
+        |from: u32, length: u32| (0..length).step_by(TILE as usize).map(move |d| (from + d, TILE.min(length - d)));
     starts(region.y, region.height)
         .flat_map(|(y, height)| starts(region.x, region.width).map(move |(x, width)| Region { x, y, width, height }))
         .collect()

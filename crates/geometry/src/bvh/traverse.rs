@@ -13,13 +13,7 @@ impl Bvh {
     /// Calls `test(thing)` for the things whose boxes the ray may meet before `t_max`, roughly from near to far; `test`
     /// gives the new `t_max`, smaller if the thing was hit.
     #[inline(always)]
-    pub(crate) fn nearest<S: Simd>(
-        &self,
-        simd: S,
-        ray: &Ray,
-        t_max: f64,
-        mut test: impl FnMut(u32) -> f64,
-    ) {
+    pub(crate) fn nearest<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, mut test: impl FnMut(u32) -> f64) {
         if self.nodes.is_empty() {
             return;
         }

@@ -41,8 +41,7 @@ impl Planes {
     /// How fast the ray gains height above each plane.
     #[inline(always)]
     fn rate<S: Simd>(&self, simd: S, d: DVec3) -> f64x4<S> {
-        let along =
-            |axis: usize, x: f64| f64x4::from_slice(simd, &self.normal[axis]) * f64x4::splat(simd, x);
+        let along = |axis: usize, x: f64| f64x4::from_slice(simd, &self.normal[axis]) * f64x4::splat(simd, x);
         along(0, d.x) + along(1, d.y) + along(2, d.z)
     }
 

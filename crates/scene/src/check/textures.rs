@@ -8,6 +8,8 @@ use durer_math::DAffine3;
 
 /// How deep textures may be made of textures.
 const DEEPEST: usize = 32;
+/// How many patterns a point of a texture may ask: blends of blends double with each level.
+const MOST_PATTERNS: u64 = 1000;
 /// The most colours of a pattern.
 const MOST_COLORS: usize = 1000;
 
@@ -30,6 +32,14 @@ fn images(c: &mut Checker<'_>) {
         let fine = texels > 0 && texels as u64 == u64::from(bitmap.width) * u64::from(bitmap.height);
         if !fine {
             c.at(Step::Image(ImageId(id)), |c| c.problem("the image's pixels do not fill its width and height"));
+        }
+        if let Texels::F32(texels) = &bitmap.texels
+            && let Some(at) = texels.iter().position(|texel| texel.iter().any(|value| !value.is_finite()))
+        {
+            let (x, y) = (at as u64 % u64::from(bitmap.width.max(1)), at as u64 / u64::from(bitmap.width.max(1)));
+            c.at(Step::Image(ImageId(id)), |c| {
+                c.problem(format!("the image's pixel {x},{y} is infinite or not a number"))
+            });
         }
     }
 }
@@ -121,6 +131,7 @@ fn nesting(c: &mut Checker<'_>) {
     // 0: not seen, 1: on the way down, 2: done.
     let mut state = vec![0u8; textures.len()];
     let mut height = vec![0usize; textures.len()];
+    let mut asked = vec![1u64; textures.len()];
     for start in 0..textures.len() {
         if state[start] != 0 {
             continue;
@@ -146,11 +157,31 @@ fn nesting(c: &mut Checker<'_>) {
                             c.problem(format!("textures of textures may be at most {DEEPEST} deep"))
                         });
                     }
+                    asked[id] = patterns_asked(&textures[id], &asked);
+                    let first = height[id] <= DEEPEST
+                        && parts(&textures[id]).all(|part| asked.get(part).is_none_or(|n| *n <= MOST_PATTERNS));
+                    if first && asked[id] > MOST_PATTERNS {
+                        c.at(Step::Texture(TextureId(id as u32)), |c| {
+                            c.problem(format!("a point of this texture asks more than {MOST_PATTERNS} patterns"))
+                        });
+                    }
                     way.pop();
                 }
             }
         }
     }
+}
+
+/// How many patterns a point of a texture asks at most, itself counted, if its parts ask so many.
+fn patterns_asked(texture: &Texture, asked: &[u64]) -> u64 {
+    let mut below: Vec<u64> = parts(texture).filter_map(|part| asked.get(part)).copied().collect();
+    below.sort_unstable_by(|a, b| b.cmp(a));
+    let at_once = match texture.pattern {
+        Pattern::Checker { .. } | Pattern::Stripes { .. } | Pattern::Rings { .. } | Pattern::Image(_) => 1,
+        // Blends of two.
+        Pattern::Gradient { .. } | Pattern::Noise { .. } | Pattern::Marble { .. } | Pattern::Wood { .. } => 2,
+    };
+    below.iter().take(at_once).fold(1, |sum, part| sum.saturating_add(*part))
 }
 
 /// The problem that the texture `id` refers back to `part`.
