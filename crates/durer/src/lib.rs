@@ -18,15 +18,15 @@
 mod files;
 
 pub use durer_formats::{
-    AssetError, Assets, Diagnostic, Diagnostics, FolderAssets, Limits, LoadOptions, Loaded, NoAssets, Related, Severity,
-    json_schema, load_bytes, load_file, load_str, reference_markdown, to_yaml,
+    AssetError, Assets, Diagnostic, Diagnostics, FolderAssets, Limits, LoadOptions, Loaded, NoAssets, Related,
+    Severity, json_schema, load_bytes, load_file, load_str, reference_markdown, to_yaml,
 };
 pub use durer_imaging as imaging;
 pub use durer_math as math;
 pub use durer_render::{
     Bounds, CompiledScene, Contribution, Film, HitExplanation, LightExplanation, NotTraced, PixelExplanation, Progress,
-    RayCounts, RayExplanation, RayKind, Region, RenderError, RenderOptions, SampleExplanation, Source, compile, explain,
-    render,
+    RayCounts, RayExplanation, RayKind, Region, RenderError, RenderOptions, SampleExplanation, Source, compile,
+    explain, render,
 };
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};

@@ -93,7 +93,7 @@ impl World {
     pub fn closest_hit(&self, ray: &Ray, t_max: f64, mask: u32, origin: Option<&Vantage>) -> Option<Hit> {
         match origin.and_then(|vantage| vantage.candidates(ray.direction)) {
             Some(ids) => {
-                let mut best = Best { hit: None, t_max };
+                let mut best = Best { hit: None, reach: t_max };
                 for &id in ids {
                     self.offer(&mut best, id, ray, mask);
                 }
@@ -108,7 +108,7 @@ impl World {
     fn offer(&self, best: &mut Best, id: u32, ray: &Ray, mask: u32) {
         let primitive = &self.primitives[id as usize];
         if primitive.mask & mask != 0
-            && let Some(crossing) = primitive.intersect(ray, best.reach())
+            && let Some(crossing) = primitive.intersect(ray, best.reach)
         {
             best.offer(id, crossing);
         }
@@ -116,9 +116,9 @@ impl World {
 
     #[inline(always)]
     fn closest_hit_with<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, mask: u32) -> Option<Hit> {
-        let mut best = Best { hit: None, t_max };
+        let mut best = Best { hit: None, reach: t_max };
         for planes in &self.planes {
-            let (mut hits, t) = planes.hits(simd, ray, best.reach());
+            let (mut hits, t) = planes.hits(simd, ray, best.reach);
             while hits != 0 {
                 let slot = hits.trailing_zeros() as usize & 3;
                 hits &= hits - 1;
@@ -128,10 +128,10 @@ impl World {
                 }
             }
         }
-        let reach = best.reach();
+        let reach = best.reach;
         self.bvh.nearest(simd, ray, reach, |thing| {
             self.offer(&mut best, self.bounded_ids[thing as usize], ray, mask);
-            best.reach()
+            best.reach
         });
         best.hit
     }
@@ -200,27 +200,20 @@ impl World {
 /// The best hit so far.
 struct Best {
     hit: Option<Hit>,
-    t_max: f64,
+    /// Hits below this may win; one at the same distance as the best still may, by its index.
+    reach: f64,
 }
 
 impl Best {
-    /// Hits below this may win; a hit at the same distance as the best still may, by its index.
-    #[inline(always)]
-    fn reach(&self) -> f64 {
-        match self.hit {
-            Some(hit) => hit.crossing.t.next_up(),
-            None => self.t_max,
-        }
-    }
-
     #[inline(always)]
     fn offer(&mut self, primitive: u32, crossing: Crossing) {
         let wins = match self.hit {
-            None => crossing.t < self.t_max,
+            None => crossing.t < self.reach,
             Some(best) => crossing.t < best.crossing.t || (crossing.t == best.crossing.t && primitive < best.primitive),
         };
         if wins {
             self.hit = Some(Hit { crossing, primitive });
+            self.reach = crossing.t.next_up();
         }
     }
 }

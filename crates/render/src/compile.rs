@@ -1,14 +1,13 @@
 //! From a checked scene to flat arrays: what the integrators read.
 
 use crate::camera::Camera;
+use crate::fog::Fog;
 use crate::lights::Light;
 use crate::materials::Material;
 use crate::textures::Textures;
 use durer_geometry::{Bounds, Primitive, Vantage, World};
 use durer_math::{DAffine3, DVec2, Rgb};
-use durer_scene::{
-    Background, CheckedScene, Fog, MaterialId, Object, ObjectKind, Picture, RenderSettings, Scene, Shape,
-};
+use durer_scene::{Background, CheckedScene, MaterialId, Object, ObjectKind, Picture, RenderSettings, Scene, Shape};
 
 /// Seen by all rays that look for something opaque.
 pub(crate) const OPAQUE: u32 = 1;
@@ -80,7 +79,7 @@ pub fn compile(scene: &CheckedScene) -> CompiledScene {
         textures: Textures::compile(scene),
         background: scene.background,
         ambient: scene.ambient,
-        fog: scene.fog,
+        fog: scene.fog.as_ref().map(Fog::compile),
         picture: scene.picture,
         settings: scene.render,
         media,

@@ -3,6 +3,21 @@
 use durer_math::{Rgb, functions::exp};
 use durer_scene as scene;
 
+/// Fog, compiled.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fog {
+    color: Rgb,
+    kind: Kind,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    /// What is left after a length is e to the power `rate · length`.
+    Exponential { rate: f64 },
+    /// What is left after a length is `(end - length) · rate`, within 0..1.
+    Linear { end: f64, rate: f64 },
+}
+
 /// What fog does along one straight segment of a ray's path: `visible · light + (1 - visible) · color`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Veil {
@@ -12,14 +27,26 @@ pub(crate) struct Veil {
     pub(crate) color: Rgb,
 }
 
-/// The fog on a segment of this length (which may be infinite).
-#[inline]
-pub(crate) fn veil(fog: &scene::Fog, length: f64) -> Veil {
-    match *fog {
-        scene::Fog::Exponential { color, distance } => Veil { visible: exp((-length / distance) as f32), color },
-        scene::Fog::Linear { color, start, end } => {
-            Veil { visible: ((end - length) / (end - start)).clamp(0.0, 1.0) as f32, color }
+impl Fog {
+    pub(crate) fn compile(fog: &scene::Fog) -> Fog {
+        match *fog {
+            scene::Fog::Exponential { color, distance } => {
+                Fog { color, kind: Kind::Exponential { rate: -1.0 / distance } }
+            }
+            scene::Fog::Linear { color, start, end } => {
+                Fog { color, kind: Kind::Linear { end, rate: 1.0 / (end - start) } }
+            }
         }
+    }
+
+    /// The fog on a segment of this length (which may be infinite).
+    #[inline]
+    pub(crate) fn veil(&self, length: f64) -> Veil {
+        let visible = match self.kind {
+            Kind::Exponential { rate } => exp((length * rate) as f32),
+            Kind::Linear { end, rate } => ((end - length) * rate).clamp(0.0, 1.0) as f32,
+        };
+        Veil { visible, color: self.color }
     }
 }
 
@@ -29,15 +56,15 @@ mod tests {
 
     #[test]
     fn exponential_fog_leaves_one_part_in_e_at_its_distance() {
-        let fog = scene::Fog::Exponential { color: Rgb::WHITE, distance: 400.0 };
-        assert!((veil(&fog, 400.0).visible - 0.367_879_44).abs() < 1e-7);
-        assert_eq!((veil(&fog, 0.0).visible, veil(&fog, f64::INFINITY).visible), (1.0, 0.0));
+        let fog = Fog::compile(&scene::Fog::Exponential { color: Rgb::WHITE, distance: 400.0 });
+        assert!((fog.veil(400.0).visible - 0.367_879_44).abs() < 1e-7);
+        assert_eq!((fog.veil(0.0).visible, fog.veil(f64::INFINITY).visible), (1.0, 0.0));
     }
 
     #[test]
     fn linear_fog_is_linear_between_its_ends() {
-        let fog = scene::Fog::Linear { color: Rgb::WHITE, start: 10.0, end: 30.0 };
-        let visible = [0.0, 10.0, 15.0, 20.0, 30.0, f64::INFINITY].map(|d| veil(&fog, d).visible);
+        let fog = Fog::compile(&scene::Fog::Linear { color: Rgb::WHITE, start: 10.0, end: 30.0 });
+        let visible = [0.0, 10.0, 15.0, 20.0, 30.0, f64::INFINITY].map(|d| fog.veil(d).visible);
         assert_eq!(visible, [1.0, 1.0, 0.75, 0.5, 0.0, 0.0]);
     }
 }

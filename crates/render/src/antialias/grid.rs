@@ -10,11 +10,11 @@ pub(crate) struct Grid {
 
 impl Antialias for Grid {
     fn pixel(&self, corner: DVec2, mut take: impl FnMut(DVec2) -> Sample, mut keep: impl FnMut(f32, Sample)) {
-        let side = f64::from(self.n);
+        let cell = 1.0 / f64::from(self.n);
         let weight = 1.0 / (self.n * self.n) as f32;
         for row in 0..self.n {
             for column in 0..self.n {
-                let within = DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5) / side;
+                let within = DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5) * cell;
                 keep(weight, take(corner + within));
             }
         }

@@ -7,7 +7,6 @@
 use super::Integrator;
 use crate::background::background;
 use crate::compile::CompiledScene;
-use crate::fog::veil;
 use crate::materials::{Material, reflect, refract};
 use crate::media::Media;
 use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Source, SurfaceSeen};
@@ -63,7 +62,7 @@ impl<O: Observer> Path<'_, O> {
     fn along(&mut self, length: f64, weight: Rgb) -> Rgb {
         let mut weight = weight;
         if let Some(fog) = &self.scene.fog {
-            let veil = veil(fog, length);
+            let veil = fog.veil(length);
             self.add(Source::Fog, weight * veil.color * (1.0 - veil.visible));
             weight = weight * veil.visible;
         }
