@@ -72,6 +72,19 @@ objects: [rectangle: {{corner: [-9, -9, 0], edges: [[{}, 0, 0], [0, 18, 0]], mat
     assert_eq!(pixel(fine, 0.07), 0.75);
 }
 
+/// Only one of the four rays of pixel (20, 20) differs from the others: whichever it is, it is noticed.
+#[test]
+fn recursion_notices_each_of_its_four_rays() {
+    for (x, y) in [(0.0, -0.05), (0.05, -0.05), (0.0, -0.1), (0.05, -0.1)] {
+        let rest = format!(
+            "background: 0
+objects: [rectangle: {{corner: [{x}, {y}, 0], edges: [[0.05, 0, 0], [0, 0.05, 0]], material: {{color: 1, ambient: 1}}}}]"
+        );
+        let (rays, image) = rendered("{recursive: {threshold: 0.1, max_depth: 1}}", (40, 40), &rest);
+        assert_eq!((rays, image.pixel(20, 20).r), (1600 * 4 + 16, 0.25), "({x}, {y})");
+    }
+}
+
 /// A disc of radius 1.5, of pixels of 0.1: the sum of all pixels is its area.
 #[test]
 fn the_light_of_a_disc_is_its_area() {

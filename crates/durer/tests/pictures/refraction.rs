@@ -197,4 +197,42 @@ objects:
   - sphere: {radius: 1, material: {transparency: 1, attenuation: {color: [1, 0.25, 1], distance: 1}}}
 ";
     assert_color(look(text, [0.0, 0.0, 5.0], [0.0, 0.0, 0.0]).color, [0.25, 0.0625, 1.0]);
+    assert_color(look(text, [0.0, 0.0, 0.0], [0.0, 0.0, -1.0]).color, [0.5, 0.25, 1.0]);
+    assert_color(look(text, [0.0, 0.0, 1.5], [0.0, 0.0, -1.0]).color, [0.5_f64.powf(1.5), 0.0625, 1.0]);
+}
+
+/// The eye is in the middle of water, and that in glass: the ray bends by 1.33 / 1.5 where it leaves the water.
+#[test]
+fn an_eye_inside_nested_media_is_in_the_innermost() {
+    let glass = "sphere: {radius: 2, material: {transparency: 1, ior: 1.5}}";
+    let water = "sphere: {radius: 1, material: {transparency: 1, ior: 1.33}}";
+    for objects in [[glass, water], [water, glass]] {
+        let text = format!("lights: []\nobjects: [{}]", objects.join(", "));
+        let seen = look(&text, [0.6, 0.0, 0.0], [0.6, 0.0, 1.0]);
+        let angle = 0.6_f64.asin() - (0.6_f64 * 1.33 / 1.5).asin();
+        assert_vector(seen.after(1).direction, [angle.sin(), 0.0, angle.cos()]);
+    }
+}
+
+/// A slab that reflects R at each face and lets a through between them, seen straight on: light that has gone to and fro
+/// within adds up to (1 - R)² a / (1 - R² a²) behind it, and R + R (1 - R)² a² / (1 - R² a²) before it.
+#[test]
+fn light_that_goes_to_and_fro_in_a_slab_adds_up_to_the_series() {
+    let seen = |background: &str| {
+        let text = format!(
+            "render: {{max_depth: 40}}
+background: {background}
+lights: []
+objects:
+  - box:
+      min: [-9, -1, -9]
+      max: [9, 1, 9]
+      material: {{transparency: 1, ior: 4, fresnel: true, attenuation: {{color: [0.5, 0.9, 1], distance: 2}}}}"
+        );
+        look(&text, [0.1, 5.0, 0.2], [0.1, 0.0, 0.2]).color
+    };
+    let r = (3.0_f64 / 5.0).powi(2);
+    let inner = |a: f64| (1.0 - r).powi(2) * a / (1.0 - r * r * a * a);
+    assert_color(seen("{bottom: 1, top: 0}"), [0.5, 0.9, 1.0].map(inner));
+    assert_color(seen("{bottom: 0, top: 1}"), [0.5, 0.9, 1.0].map(|a| r + r * a * inner(a)));
 }
