@@ -1,10 +1,9 @@
-//! The project's own chores: `cargo xtask ci`, `bless`, `gallery`, `bench`. They run the built `durer`; they are not part of it.
+//! The project's own chores: `cargo xtask bless`, `gallery`, `bench`. They run the built `durer`; they are not part of it.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "programs may print")]
 
 mod bench;
 mod bless;
-mod ci;
 mod gallery;
 mod shell;
 
@@ -13,7 +12,6 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 cargo xtask CHORE
 
-  ci                        format, lints, tests, fresh documents: all that must hold before a commit
   bless [--check]           rewrite docs/scene.schema.json, docs/reference.md and docs/cli.md from the program
   gallery [NAME ...]        render the pictures of docs/gallery (or only these) and write its page
   bench peers [--rounds N]  the seed's room in durer, POV-Ray and Tachyon, to benches/runs/";
@@ -32,7 +30,6 @@ fn main() -> ExitCode {
 
 fn run(words: &[&str]) -> Result<(), String> {
     match words {
-        ["ci"] => ci::run(),
         ["bless"] => bless::run(),
         ["bless", "--check"] => bless::check(),
         ["gallery", names @ ..] => gallery::run(names),

@@ -62,9 +62,9 @@ impl Light {
     #[inline]
     pub(crate) fn arriving(&self, at: DVec3) -> Option<Arriving> {
         match &self.kind {
-            Kind::Point { position, falloff } => self.from_point(*position, at, *falloff),
+            Kind::Point { position, falloff } => self.arriving_from(*position, at, *falloff),
             Kind::Spot { position, axis, cone, falloff } => {
-                let mut arriving = self.from_point(*position, at, *falloff)?;
+                let mut arriving = self.arriving_from(*position, at, *falloff)?;
                 let strength = cone.strength(-arriving.direction.dot(*axis));
                 arriving.light = arriving.light * strength;
                 (strength > 0.0).then_some(arriving)
@@ -76,7 +76,7 @@ impl Light {
     }
 
     #[inline]
-    fn from_point(&self, position: DVec3, at: DVec3, falloff: Falloff) -> Option<Arriving> {
+    fn arriving_from(&self, position: DVec3, at: DVec3, falloff: Falloff) -> Option<Arriving> {
         let to_light = position - at;
         let squared = to_light.length_squared();
         if squared == 0.0 {

@@ -33,7 +33,7 @@ pub struct RenderSettings {
 
 impl Default for RenderSettings {
     fn default() -> RenderSettings {
-        RenderSettings { max_depth: 5, min_weight: 0.0, antialias: Antialias::default() }
+        RenderSettings { max_depth: 5, min_weight: 0.001, antialias: Antialias::default() }
     }
 }
 

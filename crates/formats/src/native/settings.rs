@@ -29,7 +29,7 @@ choice_value!(Transfer, Transfer::Srgb);
 record!(RenderSettings {
     max_depth: u32 = RenderSettings::default().max_depth
         => "Longest chain of rays: the eye's ray has depth 1, and rays deeper than this are black; 1 to 100.";
-    min_weight: f32 = 0.0 => "Rays that count less than this in the pixel are not traced; 0 traces all.";
+    min_weight: f32 = 0.001 => "Rays that count less than this in the pixel are not traced; 0 traces all.";
     antialias: Antialias = Antialias::default() => "Where in a pixel rays are sent, and how many.";
 });
 record_value!(RenderSettings, "render", RenderSettings::default());

@@ -2,8 +2,10 @@
 
 use super::Step;
 use super::values::Checker;
-use crate::{Antialias, Background, Camera, Fog, Light, LightKind, Projection};
+use crate::{Antialias, Background, Camera, Fog, Light, LightKind, Material, Projection, Scene};
 
+/// The most rays that one ray of the eye may split into.
+const MOST_RAYS: f64 = 1e6;
 /// The most pixels of a picture.
 const MOST_PIXELS: u64 = 400_000_000;
 
@@ -71,10 +73,27 @@ fn picture(c: &mut Checker<'_>) {
     }
 }
 
+/// How many rays one ray of the eye may split into, at most: it may double at each surface, and a ray that counts less
+/// than `min_weight` ends.
+fn most_rays(scene: &Scene) -> f64 {
+    let splits = |m: &&Material| m.fresnel || !(m.reflection.is_black() || m.transparency.is_black());
+    let sum = |m: &Material| (m.reflection + m.transparency).max_component().into();
+    let Some(growth) = scene.materials.iter().filter(splits).map(sum).reduce(f64::max) else { return 1.0 };
+    let (mut by_depth, mut by_weight) = (1.0_f64, 1.0 / f64::from(scene.render.min_weight));
+    for _ in 0..scene.render.max_depth {
+        (by_depth, by_weight) = (by_depth * 2.0, by_weight * growth.max(1.0));
+    }
+    by_depth.min(by_weight)
+}
+
 fn render(c: &mut Checker<'_>) {
     let settings = c.scene.render;
-    c.within("max_depth", settings.max_depth.into(), 1.0, 100.0);
-    c.within("min_weight", settings.min_weight.into(), 0.0, 1.0);
+    let depth = c.within("max_depth", settings.max_depth.into(), 1.0, 100.0);
+    let weight = c.within("min_weight", settings.min_weight.into(), 0.0, 1.0);
+    if depth && weight && most_rays(c.scene) > MOST_RAYS {
+        let help = "lower `max_depth`, raise `min_weight`, or let `reflection` and `transparency` add up to less";
+        c.field("max_depth", |c| c.problem_with_help("a ray may split into more than a million rays", help));
+    }
     c.field("antialias", |c| match settings.antialias {
         Antialias::None => {}
         Antialias::Grid { n } => {
