@@ -173,7 +173,14 @@ impl Primitive {
     pub(crate) fn as_plane(&self) -> Option<[DVec3; 2]> {
         match self.kind {
             Kind::Plane(_) => Some([self.shape_from_world.row(1), self.origin]),
-            _ => None,
+            Kind::Sphere(_)
+            | Kind::Cuboid(_)
+            | Kind::Cylinder(_)
+            | Kind::Cone(_)
+            | Kind::Disc(_)
+            | Kind::Rectangle(_)
+            | Kind::Triangle(_)
+            | Kind::Torus(_) => None,
         }
     }
 

@@ -170,11 +170,15 @@ fn cell_of(d: DVec3) -> usize {
         (0, x, y, z)
     };
     const HALF: f32 = (CELLS / 2) as f32;
+    const LAST: f32 = (CELLS - 1) as f32;
     // Adding this rounds to a whole number, which then stands in the lowest bits: cheaper than a checked conversion.
     const ROUND: f32 = (3 << 22) as f32;
     let scale = HALF / depth.abs();
     let index = |along: f32| {
-        let cell = (along * scale + (HALF - 0.5)).max(0.0).min((CELLS - 1) as f32);
+        // Comparisons instead of `max` and `min`, which mind NaNs.
+        let cell = along * scale + (HALF - 0.5);
+        let cell = if cell > 0.0 { cell } else { 0.0 };
+        let cell = if cell < LAST { cell } else { LAST };
         ((cell + ROUND).to_bits() & 0xff) as usize
     };
     let face = 2 * axis + usize::from(depth > 0.0);

@@ -99,8 +99,13 @@ impl World {
                 }
                 best.hit
             }
-            None => dispatch!(self.level, simd => self.closest_hit_with(simd, ray, t_max, mask)),
+            None => self.closest_hit_in_tree(ray, t_max, mask),
         }
+    }
+
+    #[inline(never)]
+    fn closest_hit_in_tree(&self, ray: &Ray, t_max: f64, mask: u32) -> Option<Hit> {
+        dispatch!(self.level, simd => self.closest_hit_with(simd, ray, t_max, mask))
     }
 
     /// Tests one primitive; keeps what is best.

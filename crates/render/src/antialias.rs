@@ -12,11 +12,17 @@ pub(crate) struct Sample {
     pub(crate) index: u32,
 }
 
+/// What anti-aliasing may ask of the renderer, for one pixel.
+pub(crate) trait Samples {
+    /// Traces a ray through a point of the picture, in pixels.
+    fn take(&mut self, at: DVec2) -> Sample;
+
+    /// Adds a sample to the pixel, times a weight. The pixel is the sum of these, in this order.
+    fn keep(&mut self, weight: f32, sample: Sample);
+}
+
 /// A way to make a pixel from samples.
-///
-/// The pixel is the sum of all kept samples, each times its weight, in the order in which they are kept.
 pub(crate) trait Antialias: Sync {
-    /// Samples the pixel whose upper left corner is at `corner`, in pixels. `take` traces a ray through a point of the
-    /// picture; `keep` says with which weight a sample enters the pixel.
-    fn pixel(&self, corner: DVec2, take: impl FnMut(DVec2) -> Sample, keep: impl FnMut(f32, Sample));
+    /// Samples the pixel whose upper left corner is at `corner`, in pixels.
+    fn pixel(&self, corner: DVec2, samples: &mut impl Samples);
 }

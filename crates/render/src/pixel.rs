@@ -1,6 +1,6 @@
 //! One pixel: rays where the anti-aliasing wants them, their colours summed.
 
-use crate::antialias::{Antialias, Sample};
+use crate::antialias::{Antialias, Sample, Samples};
 use crate::compile::CompiledScene;
 use crate::integrators::Integrator;
 use crate::observer::Observer;
@@ -29,23 +29,35 @@ pub(crate) fn render_pixel<I: Integrator, A: Antialias, O: SampleObserver>(
     (x, y): (u32, u32),
     observer: &mut O,
 ) -> Pixel {
-    let mut pixel = Pixel { color: Rgb::BLACK, bad_samples: 0 };
-    let mut index = 0;
-    let observer = std::cell::RefCell::new(observer);
-    let take = |at: DVec2| {
-        let mut observer = observer.borrow_mut();
-        observer.sample_begins(at);
-        let mut color = integrator.radiance(scene, &scene.camera.ray(at), *observer);
+    let pixel = Pixel { color: Rgb::BLACK, bad_samples: 0 };
+    let mut gathered = Gathered { scene, integrator, observer, taken: 0, pixel };
+    antialias.pixel(DVec2::new(f64::from(x), f64::from(y)), &mut gathered);
+    gathered.pixel
+}
+
+/// The samples of one pixel.
+struct Gathered<'a, I, O> {
+    scene: &'a CompiledScene,
+    integrator: &'a I,
+    observer: &'a mut O,
+    taken: u32,
+    pixel: Pixel,
+}
+
+impl<I: Integrator, O: SampleObserver> Samples for Gathered<'_, I, O> {
+    fn take(&mut self, at: DVec2) -> Sample {
+        self.observer.sample_begins(at);
+        let mut color = self.integrator.radiance(self.scene, &self.scene.camera.ray(at), self.observer);
         if !color.is_finite() {
-            pixel.bad_samples += 1;
+            self.pixel.bad_samples += 1;
             color = Rgb::BLACK;
         }
-        index += 1;
-        Sample { color, index: index - 1 }
-    };
-    antialias.pixel(DVec2::new(f64::from(x), f64::from(y)), take, |weight, sample| {
-        pixel.color += sample.color * weight;
-        observer.borrow_mut().sample_kept(weight, sample);
-    });
-    pixel
+        self.taken += 1;
+        Sample { color, index: self.taken - 1 }
+    }
+
+    fn keep(&mut self, weight: f32, sample: Sample) {
+        self.pixel.color += sample.color * weight;
+        self.observer.sample_kept(weight, sample);
+    }
 }

@@ -1,6 +1,6 @@
 //! The seed's anti-aliasing: four samples in the quarters of a square; where they differ, each quarter again.
 
-use super::{Antialias, Sample};
+use super::{Antialias, Sample, Samples};
 use durer_math::{DVec2, Rgb};
 
 /// Compares sample 0 with the other three. If one differs by more than `threshold` and the square was divided fewer
@@ -16,32 +16,25 @@ pub(crate) struct Recursive {
 const QUARTERS: [(f64, f64); 4] = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
 
 impl Antialias for Recursive {
-    fn pixel(&self, corner: DVec2, mut take: impl FnMut(DVec2) -> Sample, mut keep: impl FnMut(f32, Sample)) {
-        self.square(corner, 1.0, 0, &mut take, &mut keep);
+    fn pixel(&self, corner: DVec2, samples: &mut impl Samples) {
+        self.square(corner, 1.0, 0, samples);
     }
 }
 
 impl Recursive {
-    fn square(
-        &self,
-        corner: DVec2,
-        side: f64,
-        depth: u32,
-        take: &mut impl FnMut(DVec2) -> Sample,
-        keep: &mut impl FnMut(f32, Sample),
-    ) {
-        let samples = QUARTERS.map(|(x, y)| take(corner + DVec2::new(x, y) * side));
-        let differs = |s: &Sample| difference(samples[0].color, s.color) > self.threshold;
-        if depth < self.max_depth && samples[1..].iter().any(differs) {
+    fn square(&self, corner: DVec2, side: f64, divisions: u32, samples: &mut impl Samples) {
+        let four = QUARTERS.map(|(x, y)| samples.take(corner + DVec2::new(x, y) * side));
+        let differs = |s: &Sample| difference(four[0].color, s.color) > self.threshold;
+        if divisions < self.max_depth && four[1..].iter().any(differs) {
             for (x, y) in QUARTERS {
                 let quarter = corner + DVec2::new(x - 0.25, y - 0.25) * side;
-                self.square(quarter, side * 0.5, depth + 1, take, keep);
+                self.square(quarter, side * 0.5, divisions + 1, samples);
             }
         } else {
             // The area of a quarter: a power of two, so weighting loses nothing.
             let weight = (side * side * 0.25) as f32;
-            for sample in samples {
-                keep(weight, sample);
+            for sample in four {
+                samples.keep(weight, sample);
             }
         }
     }
@@ -57,21 +50,30 @@ fn difference(a: Rgb, b: Rgb) -> f32 {
 mod tests {
     use super::*;
 
-    /// Rays taken, weights kept and the pixel, for a picture that is a function of place.
+    /// A picture that is a function of place.
+    struct Pictured<F> {
+        picture: F,
+        count: u32,
+        weights: f32,
+        pixel: f32,
+    }
+
+    impl<F: Fn(DVec2) -> f32> Samples for Pictured<F> {
+        fn take(&mut self, at: DVec2) -> Sample {
+            self.count += 1;
+            Sample { color: Rgb::gray((self.picture)(at)), index: self.count - 1 }
+        }
+        fn keep(&mut self, weight: f32, sample: Sample) {
+            self.weights += weight;
+            self.pixel += weight * sample.color.r;
+        }
+    }
+
+    /// Rays taken, the sum of the weights, and the pixel.
     fn run(max_depth: u32, picture: impl Fn(DVec2) -> f32) -> (u32, f32, f32) {
-        let (mut count, mut weights, mut pixel) = (0, 0.0, 0.0);
-        Recursive { threshold: 0.3, max_depth }.pixel(
-            DVec2::ZERO,
-            |at| {
-                count += 1;
-                Sample { color: Rgb::gray(picture(at)), index: count - 1 }
-            },
-            |weight, sample| {
-                weights += weight;
-                pixel += weight * sample.color.r;
-            },
-        );
-        (count, weights, pixel)
+        let mut samples = Pictured { picture, count: 0, weights: 0.0, pixel: 0.0 };
+        Recursive { threshold: 0.3, max_depth }.pixel(DVec2::ZERO, &mut samples);
+        (samples.count, samples.weights, samples.pixel)
     }
 
     #[test]
