@@ -103,6 +103,15 @@ impl Complaint {
         self
     }
 
+    /// Adds help that comes from a look at the line that it is about, if there is no help yet.
+    pub(crate) fn help_from_line(self, source: &str, advise: impl Fn(&str) -> Option<String>) -> Complaint {
+        let start = source.floor_char_boundary(self.span.start);
+        let before = source[..start].rfind('\n').map_or(0, |at| at + 1);
+        let line = source[before..].lines().next().unwrap_or_default();
+        let help = self.help.clone().or_else(|| advise(line));
+        Complaint { help, ..self }
+    }
+
     pub(crate) fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }

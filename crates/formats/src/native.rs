@@ -40,6 +40,11 @@ use tree::Span;
 
 /// Reads and checks a scene; complaints may be warnings only, and then there is a scene.
 pub(crate) fn load(text: &str, assets: &dyn Assets, limits: &Limits) -> (Option<CheckedScene>, Vec<Complaint>) {
+    let (scene, complaints) = load_tree(text, assets, limits);
+    (scene, complaints.into_iter().map(|complaint| complaint.help_from_line(text, hints::unquoted_color)).collect())
+}
+
+fn load_tree(text: &str, assets: &dyn Assets, limits: &Limits) -> (Option<CheckedScene>, Vec<Complaint>) {
     let mut complaints = Vec::new();
     let Some(root) = parse::parse(text, limits, &mut complaints) else {
         if complaints.is_empty() {

@@ -60,7 +60,7 @@ objects:
 #[test]
 fn between_two_mirrors_the_images_end_at_the_depth_limit() {
     for max_depth in [1, 2, 3, 5, 8, 20] {
-        let seen = look(&hall(&format!("max_depth: {max_depth}")), [0.0, 0.0, 0.0], [0.0, 0.0, -1.0]);
+        let seen = look(&hall(&format!("max_depth: {max_depth}, min_weight: 0")), [0.0, 0.0, 0.0], [0.0, 0.0, -1.0]);
         assert_gray(seen.color, 0.1 * (2.0 - 0.5_f64.powi(max_depth - 1)));
         let last = seen.after(max_depth as usize - 1);
         assert_eq!(last.depth, max_depth as u32);

@@ -220,7 +220,7 @@ fn an_eye_inside_nested_media_is_in_the_innermost() {
 fn light_that_goes_to_and_fro_in_a_slab_adds_up_to_the_series() {
     let seen = |background: &str| {
         let text = format!(
-            "render: {{max_depth: 40}}
+            "render: {{max_depth: 40, min_weight: 0.0000002}}
 background: {background}
 lights: []
 objects:

@@ -6,6 +6,19 @@ use crate::diagnostics::Complaint;
 
 const STEPS: [&str; 4] = ["translate", "rotate", "scale", "matrix"];
 
+/// Help for a line in which a colour such as `#ff0000` stands without quotes and is a comment.
+pub(crate) fn unquoted_color(line: &str) -> Option<String> {
+    let mut comments = line.match_indices(" #").map(|(at, _)| &line[at + 2..]);
+    let digits = |rest: &str| rest.chars().take_while(char::is_ascii_hexdigit).count();
+    let color = comments.find(|rest| {
+        let count = digits(rest);
+        let ends = rest[count..].chars().next().is_none_or(|next| !next.is_alphanumeric());
+        matches!(count, 3 | 6) && ends
+    })?;
+    let color = &color[..digits(color)];
+    Some(format!("` #` starts a comment: put the color in quotes: `\"#{color}\"`"))
+}
+
 /// Help for a field that `title` does not have.
 pub(crate) fn unknown_field(title: &str, name: &str, value: &Node, known: &[&str]) -> String {
     if STEPS.contains(&name) && known.contains(&"transform") {

@@ -5,7 +5,7 @@ use super::values::Checker;
 use crate::{Antialias, Background, Camera, Fog, Light, LightKind, Material, Projection, Scene};
 
 /// The most rays that one ray of the eye may split into.
-const MOST_RAYS: f64 = 1e6;
+const MOST_RAYS: f64 = 1e7;
 /// The most pixels of a picture.
 const MOST_PIXELS: u64 = 400_000_000;
 
@@ -92,7 +92,7 @@ fn render(c: &mut Checker<'_>) {
     let weight = c.within("min_weight", settings.min_weight.into(), 0.0, 1.0);
     if depth && weight && most_rays(c.scene) > MOST_RAYS {
         let help = "lower `max_depth`, raise `min_weight`, or let `reflection` and `transparency` add up to less";
-        c.field("max_depth", |c| c.problem_with_help("a ray may split into more than a million rays", help));
+        c.field("max_depth", |c| c.problem_with_help("a ray may split into more than ten million rays", help));
     }
     c.field("antialias", |c| match settings.antialias {
         Antialias::None => {}
