@@ -251,7 +251,7 @@ fn settings() -> BoxedStrategy<Scene> {
     ];
     let picture = (1_u32..9999, 1_u32..9999, prop::sample::select(vec![Transfer::Srgb, Transfer::Linear]))
         .prop_map(|(width, height, transfer)| Picture { width, height, transfer });
-    let render = (1_u32..=100, part(), antialias).prop_map(|(max_depth, min_weight, antialias)| RenderSettings {
+    let render = (1_u32..=20, part(), antialias).prop_map(|(max_depth, min_weight, antialias)| RenderSettings {
         max_depth,
         min_weight,
         antialias,
