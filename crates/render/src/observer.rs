@@ -87,10 +87,12 @@ pub struct RayCounts {
     pub transmitted: u64,
     /// Towards lights.
     pub shadow: u64,
+    /// Not traced, and black, because the chain of rays was as long as it may be.
+    pub cut_off: u64,
 }
 
 impl RayCounts {
-    /// Rays of all kinds.
+    /// Rays of all kinds that were traced.
     pub fn total(&self) -> u64 {
         self.eye + self.reflected + self.transmitted + self.shadow
     }
@@ -101,6 +103,7 @@ impl RayCounts {
         self.reflected += other.reflected;
         self.transmitted += other.transmitted;
         self.shadow += other.shadow;
+        self.cut_off += other.cut_off;
     }
 }
 
@@ -115,5 +118,9 @@ impl Observer for RayCounts {
 
     fn shadow_ray(&mut self) {
         self.shadow += 1;
+    }
+
+    fn not_traced(&mut self, _kind: RayKind, _weight: Rgb, why: NotTraced) {
+        self.cut_off += u64::from(why == NotTraced::TooDeep);
     }
 }

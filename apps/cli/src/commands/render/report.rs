@@ -75,10 +75,14 @@ impl Report {
     /// The line at the end.
     pub(super) fn tell(&self) {
         let Region { width, height, .. } = self.region;
-        let RayCounts { eye, reflected, transmitted, shadow } = self.rays;
+        let RayCounts { eye, reflected, transmitted, shadow, cut_off } = self.rays;
         let Seconds { load, build, render, .. } = self.seconds;
+        let cut_off = match cut_off {
+            0 => String::new(),
+            count => format!(" ({} more cut off as too deep)", thousands(count)),
+        };
         output::note(&format!(
-            "{}: {width} × {height} pixels, {}; {} eye, {} reflected, {} transmitted, {} shadow rays, {:.2} Mrays/s; \
+            "{}: {width} × {height} pixels, {}; {} eye, {} reflected, {} transmitted, {} shadow rays{cut_off}, {:.2} Mrays/s; \
              load {load:.3} s, build {build:.3} s, render {render:.3} s",
             self.path.display(),
             bytes(self.bytes as u64),
@@ -121,7 +125,7 @@ impl Report {
     /// Prints everything for programs.
     pub(super) fn print_json(&self) -> Result<(), Failure> {
         let Region { x, y, width, height } = self.region;
-        let RayCounts { eye, reflected, transmitted, shadow } = self.rays;
+        let RayCounts { eye, reflected, transmitted, shadow, cut_off } = self.rays;
         let Seconds { load, build, render, write } = self.seconds;
         output::print_json(&json!({
             "scene": self.scene.to_string_lossy(),
@@ -134,7 +138,7 @@ impl Report {
             "complete": self.is_complete(),
             "rays": {
                 "eye": eye, "reflected": reflected, "transmitted": transmitted, "shadow": shadow,
-                "total": self.rays.total(),
+                "total": self.rays.total(), "cut_off": cut_off,
             },
             "mrays_per_second": self.mrays_per_second(),
             "seconds": { "load": load, "build": build, "render": render, "write": write },
