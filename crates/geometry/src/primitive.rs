@@ -52,6 +52,8 @@ pub struct Primitive {
     flat: Option<(DVec3, f64)>,
     /// Norms (greatest sum of a row) of the two matrices, for bounds on rounding errors.
     norms: [f64; 2],
+    /// How far the two are from being inverse to each other: the norm of their product less the identity.
+    residual: f64,
 }
 
 /// A point on a surface.
@@ -137,7 +139,9 @@ impl Primitive {
 
     fn place(kind: Kind, world_from_shape: &DAffine3) -> Primitive {
         let world = world_from_shape.matrix3;
-        let inverse = world.inverse();
+        // One step of Newton's iteration: cofactors alone lose digits where a map stretches unevenly.
+        let rough = world.inverse();
+        let inverse = rough + rough * (DMat3::IDENTITY - world * rough);
         let flat = match kind {
             Kind::Plane(_) | Kind::Disc(_) | Kind::Rectangle(_) => Some(outward_normal(&inverse, DVec3::Y)),
             Kind::Sphere(_)
@@ -155,6 +159,7 @@ impl Primitive {
             world_from_shape: world,
             shape_from_world: inverse,
             norms: [row_norm(&world), row_norm(&inverse)],
+            residual: row_norm(&(inverse * world - DMat3::IDENTITY)),
         }
     }
 }
@@ -191,10 +196,12 @@ impl Primitive {
         each_kind!(&self.kind, shape => shape.intersect(&self.ray_in_shape(ray), t_max))
     }
 
-    /// How often the ray crosses it with 0 < t < `t_max`.
+    /// How often the ray crosses it with 0 < t < `t_max`; no shape is crossed more than four times.
     pub fn count_crossings(&self, ray: &Ray, t_max: f64) -> u32 {
         let (mut ray, mut t_max, mut count) = (*ray, t_max, 0);
-        while let Some(crossing) = self.intersect(&ray, t_max) {
+        while let Some(crossing) = self.intersect(&ray, t_max)
+            && count < 4
+        {
             count += 1;
             let surface = self.surface(&ray, &crossing);
             let onward = surface.offset.copysign(ray.direction.dot(surface.normal));
@@ -220,10 +227,11 @@ impl Primitive {
             None => outward_normal(&self.shape_from_world, normal),
         };
         // How far the point may seem to be from the surface when a new ray's origin is mapped back to the canonical
-        // space: the shape's own rounding, and that of the two maps (a few operations of half an ulp each).
+        // space: the shape's own rounding, that of the inverse map, and that of applying the two maps (a few operations
+        // of half an ulp each).
         let [world_norm, shape_norm] = self.norms;
         let reach = world_norm * largest(snapped) + largest(point) + largest(self.origin);
-        let doubt = shape.rounding() + 16.0 * f64::EPSILON * shape_norm * reach;
+        let doubt = shape.rounding() + self.residual * largest(snapped) + 16.0 * f64::EPSILON * shape_norm * reach;
         // A step of s along the world's unit normal is one of s · stretch along the canonical one.
         Surface { point, normal, offset: 4.0 * doubt * per_stretch }
     }

@@ -17,7 +17,7 @@ const BLOCK: usize = 4;
 const BLOCKS: usize = CELLS / BLOCK;
 
 /// With more bounded primitives than this the lists get long and the tree is the better way.
-pub(crate) const MOST_BOUNDED: usize = 1024;
+pub(crate) const MOST_BOUNDED: usize = 256;
 
 /// With more planes than this preparing the lists would cost more than it saves.
 pub(crate) const MOST_PLANES: usize = 16;
@@ -64,27 +64,27 @@ pub(crate) struct Flat {
 impl Vantage {
     /// What is seen of these primitives from a point.
     pub(crate) fn new(point: DVec3, boxed: &[Boxed], planes: &[Flat]) -> Vantage {
-        let mut seen: Vec<(u32, u32)> = Vec::new();
-        for thing in boxed {
-            for_each_cell(point, &thing.bounds, |cell| seen.push((cell as u32, thing.id)));
-        }
-        nearest_planes(point, planes, |cell, id| seen.push((cell as u32, id)));
-        // A counting sort by cell; what comes first stays first.
+        let each = |visit: &mut dyn FnMut(usize, u32)| {
+            for thing in boxed {
+                for_each_cell(point, &thing.bounds, |cell| visit(cell, thing.id));
+            }
+            nearest_planes(point, planes, visit);
+        };
         let mut cells = vec![Cell::default(); CELL_COUNT];
-        for &(cell, _) in &seen {
-            cells[cell as usize].length += 1;
-        }
-        let mut start = 0;
-        for cell in &mut cells {
-            (cell.start, start) = (start, start + cell.length);
+        each(&mut |cell, _| cells[cell].length += 1);
+        // Only lists that are short enough to be used take room.
+        let mut room = 0;
+        for cell in cells.iter_mut().filter(|cell| cell.length <= LONGEST_LIST) {
+            (cell.start, room) = (room, room + cell.length);
         }
         let mut next: Vec<u32> = cells.iter().map(|cell| cell.start).collect();
-        let mut ids = vec![0; seen.len()];
-        for (cell, id) in seen {
-            let place = &mut next[cell as usize];
-            ids[*place as usize] = id;
-            *place += 1;
-        }
+        let mut ids = vec![0; room as usize];
+        each(&mut |cell, id| {
+            if cells[cell].length <= LONGEST_LIST {
+                ids[next[cell] as usize] = id;
+                next[cell] += 1;
+            }
+        });
         Vantage { point, cells, ids }
     }
 
@@ -108,11 +108,11 @@ impl Vantage {
 ///
 /// In a direction d a plane is at 1/t = -n·d / h, with h the height of the point above it: linear in d, so its greatest
 /// and least values on a block are at the corners.
-fn nearest_planes(point: DVec3, planes: &[Flat], mut visit: impl FnMut(usize, u32)) {
+fn nearest_planes(point: DVec3, planes: &[Flat], visit: &mut dyn FnMut(usize, u32)) {
     let mut planes = planes.to_vec();
     planes.sort_by_key(|plane| plane.mask);
     for group in planes.chunk_by(|a, b| a.mask == b.mask) {
-        let nearness: Vec<DVec3> = group.iter().map(|p| p.normal / -p.normal.dot(point - p.point)).collect();
+        let nearness: Vec<DVec3> = group.iter().map(|plane| nearness(plane, point)).collect();
         let mut greatest = vec![0.0; group.len()];
         for block in 0..6 * BLOCKS * BLOCKS {
             let (face, row, column) = (block / (BLOCKS * BLOCKS), block / BLOCKS % BLOCKS, block % BLOCKS);
@@ -123,7 +123,8 @@ fn nearest_planes(point: DVec3, planes: &[Flat], mut visit: impl FnMut(usize, u3
                 nearest = nearest.max(range.0);
                 *greatest = range.1;
             }
-            for (plane, _) in group.iter().zip(&greatest).filter(|(_, greatest)| **greatest >= nearest) {
+            for (plane, _) in group.iter().zip(&greatest).filter(|(_, greatest)| **greatest >= nearest * (1.0 - MARGIN))
+            {
                 for cell_row in row * BLOCK..(row + 1) * BLOCK {
                     let first = (face * CELLS + cell_row) * CELLS + column * BLOCK;
                     (first..first + BLOCK).for_each(|cell| visit(cell, plane.id));
@@ -131,6 +132,14 @@ fn nearest_planes(point: DVec3, planes: &[Flat], mut visit: impl FnMut(usize, u3
             }
         }
     }
+}
+
+/// What times a direction is one over the distance of a plane; infinite for a plane (all but) through the point, which
+/// shadow rays that end there leave out.
+fn nearness(plane: &Flat, point: DVec3) -> DVec3 {
+    let height = plane.normal.dot(point - plane.point);
+    let doubt = MARGIN * plane.normal.length() * (1.0 + point.length() + plane.point.length());
+    if height.abs() <= doubt { DVec3::INFINITY } else { plane.normal / -height }
 }
 
 /// The least and the greatest value of `nearness · d` over the directions d of a block; for a plane through the point,

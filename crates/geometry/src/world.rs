@@ -180,7 +180,7 @@ impl World {
     #[inline(always)]
     fn any_hit_with<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, test: &mut impl FnMut(u32) -> bool) -> bool {
         for planes in &self.planes {
-            let mut hits = planes.met(simd, ray, t_max);
+            let (mut hits, _) = planes.hits(simd, ray, t_max);
             while hits != 0 {
                 if test(planes.ids[hits.trailing_zeros() as usize & 3]) {
                     return true;

@@ -63,6 +63,12 @@ pub fn exp(x: f32) -> f32 {
 /// `pow(x, 0)` is 1, `pow(0, y)` is 0 for y > 0; a negative base gives NaN.
 #[inline]
 pub fn pow(base: f32, exponent: f32) -> f32 {
+    pow_wide(f64::from(base), exponent)
+}
+
+/// [`pow`] of a base in double precision, which matters near 1 under large exponents.
+#[inline]
+pub fn pow_wide(base: f64, exponent: f32) -> f32 {
     if exponent == 0.0 || base == 1.0 {
         return 1.0;
     }
@@ -75,7 +81,7 @@ pub fn pow(base: f32, exponent: f32) -> f32 {
     if base.is_infinite() {
         return if exponent > 0.0 { f32::INFINITY } else { 0.0 };
     }
-    let power = f64::from(exponent) * log2_of(f64::from(base));
+    let power = f64::from(exponent) * log2_of(base);
     if power > 128.0 {
         f32::INFINITY
     } else if power < -150.0 {

@@ -27,6 +27,11 @@ pub fn rotation_between(from: DVec3, to: DVec3) -> DMat3 {
         let (a, b) = (reflection(perpendicular - from), reflection(perpendicular - to));
         return b * a;
     }
+    if cosine < 0.0 {
+        // Reflections, through the plane across `from` and through that across the middle: exact where the form below
+        // divides by little.
+        return reflection(from + to) * reflection(from);
+    }
     let v = from.cross(to);
     let h = 1.0 / (1.0 + cosine);
     DMat3::from_cols(

@@ -71,7 +71,7 @@ pub fn compile(scene: &CheckedScene) -> CompiledScene {
         },
         eye_vantage: camera.eye().and_then(|eye| world.vantage(eye)),
         camera,
-        light_vantages: lights.iter().map(|light| world.vantage(light.position()?)).collect(),
+        light_vantages: vantages(&lights, &world),
         lights,
         world,
         objects,
@@ -85,6 +85,14 @@ pub fn compile(scene: &CheckedScene) -> CompiledScene {
         media,
         attenuates,
     }
+}
+
+/// Vantages take time and room to make; with more lights than this, only the first get one.
+const MOST_VANTAGES: usize = 32;
+
+fn vantages(lights: &[Light], world: &World) -> Vec<Option<Vantage>> {
+    let made = lights.iter().take(MOST_VANTAGES).map(|light| world.vantage(light.position()?));
+    made.chain(std::iter::repeat_with(|| None)).take(lights.len()).collect()
 }
 
 impl CompiledScene {

@@ -3,6 +3,9 @@
 use durer_math::{DVec3, Rgb, functions::cos};
 use durer_scene::{Falloff, LightKind};
 
+/// A lamp seen from within a hair's breadth is bright, not infinite.
+const BRIGHTEST: f64 = 1e24;
+
 /// A light, compiled.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Light {
@@ -85,7 +88,7 @@ impl Light {
         let distance = squared.sqrt();
         let light = match falloff {
             Falloff::None => self.power,
-            Falloff::InverseSquare => self.power * ((1.0 / squared) as f32),
+            Falloff::InverseSquare => self.power * ((1.0 / squared).min(BRIGHTEST) as f32),
         };
         Some(Arriving { direction: to_light * (1.0 / distance), distance, light })
     }

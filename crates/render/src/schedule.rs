@@ -81,9 +81,12 @@ pub fn render(scene: &CompiledScene, options: &RenderOptions, progress: &dyn Pro
         tiles(region).into_par_iter().for_each(|tile| {
             if !progress.stop() {
                 let tile = render_tile(scene, tile);
-                let mut film = film.lock().unwrap_or_else(PoisonError::into_inner);
-                film.put(&tile);
-                progress.finished(film.finished_pixels(), total);
+                let finished = {
+                    let mut film = film.lock().unwrap_or_else(PoisonError::into_inner);
+                    film.put(&tile);
+                    film.finished_pixels()
+                };
+                progress.finished(finished, total);
             }
         });
     });

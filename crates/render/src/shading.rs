@@ -4,7 +4,7 @@ use crate::compile::{CompiledScene, PlacedObject};
 use crate::materials::Material;
 use crate::textures::TexturePoint;
 use durer_geometry::{Hit, Ray, Surface};
-use durer_math::{DVec2, DVec3, Rgb, functions::pow};
+use durer_math::{DVec2, DVec3, Rgb, functions::pow_wide};
 
 /// A point on a surface, seen from one side.
 pub(crate) struct Shading<'a> {
@@ -55,7 +55,7 @@ impl<'a> Shading<'a> {
 pub(crate) fn highlight(shading: &Shading<'_>, to_light: DVec3) -> f32 {
     let mirrored = shading.normal * (2.0 * shading.normal.dot(to_light)) - to_light;
     let cosine = -mirrored.dot(shading.direction);
-    if cosine > 0.0 { pow(cosine as f32, shading.material.shininess) } else { 0.0 }
+    if cosine > 0.0 { pow_wide(cosine, shading.material.shininess) } else { 0.0 }
 }
 
 /// A hit as textures see it.

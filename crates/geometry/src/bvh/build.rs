@@ -33,6 +33,7 @@ struct Builder<'a> {
 impl Builder<'_> {
     /// Makes the node over a part and everything below it; gives its index.
     fn node(&mut self, part: Part, depth: usize) -> usize {
+        debug_assert!(depth <= MAX_DEPTH, "traversal has room for so many levels");
         let index = self.nodes.len();
         self.nodes.push(Node { boxes: Boxes::EMPTY, children: [Child::leaf(0); 8] });
         for (slot, child) in self.split_into_eight(part, depth).into_iter().enumerate() {
@@ -52,7 +53,11 @@ impl Builder<'_> {
         while parts.len() < 8 {
             let splittable = (0..parts.len()).filter(|&i| parts[i].end - parts[i].start > 1);
             let by_area = |&a: &usize, &b: &usize| parts[a].bounds.half_area().total_cmp(&parts[b].bounds.half_area());
-            let Some(largest) = splittable.max_by(by_area) else { break };
+            let largest = match must_halve(depth) {
+                true => splittable.max_by_key(|&i| parts[i].end - parts[i].start),
+                false => splittable.max_by(by_area),
+            };
+            let Some(largest) = largest else { break };
             let whole = parts.swap_remove(largest);
             let middle = self.split(whole, depth);
             parts.push(self.part(whole.start, middle));
@@ -64,8 +69,7 @@ impl Builder<'_> {
     /// Orders a part of two or more things so that those of one side come first; gives the place of the cut.
     fn split(&mut self, part: Part, depth: usize) -> usize {
         let centers = Bounds::of_points(self.things(part).iter().map(|&i| self.boxes[i as usize].center()));
-        // Cutting in halves bounds the depth where the heuristic would peel off one thing at a time.
-        let cut = if depth + 12 >= MAX_DEPTH { None } else { self.best_cut(part, &centers) };
+        let cut = if must_halve(depth) { None } else { self.best_cut(part, &centers) };
         let Some((axis, bin)) = cut else {
             let axis = longest_axis(&centers);
             let boxes = self.boxes;
@@ -113,6 +117,12 @@ impl Builder<'_> {
     fn things(&self, part: Part) -> &[u32] {
         &self.order[part.start..part.end]
     }
+}
+
+/// Near the greatest depth the largest parts are cut in halves, where the heuristic might peel off one thing at a time:
+/// each level then has an eighth of the things of the one above, and twelve are enough for 2³¹.
+fn must_halve(depth: usize) -> bool {
+    depth + 12 >= MAX_DEPTH
 }
 
 /// Area times number of things; infinite for an empty side, which would divide nothing.

@@ -2,7 +2,7 @@
 
 use super::{Bvh, MAX_DEPTH};
 use crate::Ray;
-use crate::simd::boxes::{BoxRay, round_up};
+use crate::simd::boxes::{BoxRay, FAR_SLACK, round_up};
 use arrayvec::ArrayVec;
 use fearless_simd::Simd;
 
@@ -32,7 +32,8 @@ impl Bvh {
             }
             index = loop {
                 let Some((child, enter)) = stack.pop() else { return };
-                if enter > t_max {
+                // `enter` is rounded like the test of the box, and gets the same allowance.
+                if enter > t_max * FAR_SLACK {
                     continue;
                 }
                 match super::Child(child).thing() {

@@ -36,7 +36,7 @@ pub(crate) struct BoxRay {
 
 /// Each distance is the product of a difference and an inverse; their roundings, that of the direction and that of the
 /// product are each at most 2⁻²⁴ of it (the inverse counts twice). Near and far may err in opposite directions.
-const FAR_SLACK: f32 = 1.0 + 12.0 * (f32::EPSILON / 2.0);
+pub(crate) const FAR_SLACK: f32 = 1.0 + 12.0 * (f32::EPSILON / 2.0);
 
 impl BoxRay {
     pub(crate) fn new(ray: &Ray) -> BoxRay {

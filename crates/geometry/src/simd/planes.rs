@@ -52,17 +52,4 @@ impl Planes {
         let hit = t.simd_gt(f64x4::splat(simd, 0.0)) & t.simd_lt(f64x4::splat(simd, t_max));
         (hit.to_bitmask() as u32, t.into())
     }
-
-    /// Which planes the ray meets with 0 < t < `t_max`: those that its ends lie on different sides of.
-    #[inline(always)]
-    pub(crate) fn met<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64) -> u32 {
-        let zero = f64x4::splat(simd, 0.0);
-        let start = self.height(simd, ray.origin);
-        let gain = self.rate(simd, ray.direction);
-        // An infinite ray ends where it is heading.
-        let end = if t_max < f64::INFINITY { start + gain * f64x4::splat(simd, t_max) } else { gain };
-        let down = start.simd_gt(zero) & end.simd_lt(zero);
-        let up = start.simd_lt(zero) & end.simd_gt(zero);
-        (down | up).to_bitmask() as u32
-    }
 }
