@@ -45,6 +45,8 @@ pub struct CompiledScene {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedObject {
     pub(crate) material: u32,
+    /// True if it is filled with a medium: it has an inside, and what is there bends light or takes it away.
+    pub(crate) is_medium: bool,
     /// From the world to the space in which the user described the shape; `None` where they are the same.
     pub(crate) object_from_world: Option<DAffine3>,
 }
@@ -57,9 +59,8 @@ pub fn compile(scene: &CheckedScene) -> CompiledScene {
         compiler.add(object, &DAffine3::IDENTITY, None);
     }
     let Compiler { primitives, objects, materials, .. } = compiler;
-    let is_medium = |&id: &u32| materials[objects[id as usize].material as usize].is_medium();
-    let media: Vec<u32> = (0..objects.len() as u32).filter(is_medium).collect();
-    let attenuates = materials.iter().any(|m| m.attenuation.is_some());
+    let media: Vec<u32> = (0..objects.len() as u32).filter(|&id| objects[id as usize].is_medium).collect();
+    let attenuates = media.iter().any(|&id| materials[objects[id as usize].material as usize].attenuation.is_some());
     let world = World::build(primitives);
     let Picture { width, height, .. } = scene.picture;
     let camera = Camera::compile(scene.camera.as_ref(), world.bounds(), width, height);
@@ -153,7 +154,8 @@ impl Compiler {
                 self.primitives.push(primitive);
                 let identity = world_from_object == DAffine3::IDENTITY;
                 let object_from_world = (!identity).then(|| world_from_object.inverse());
-                self.objects.push(PlacedObject { material, object_from_world });
+                let is_medium = shape.is_closed() && self.materials[material as usize].fills_with_medium();
+                self.objects.push(PlacedObject { material, is_medium, object_from_world });
             }
         }
     }

@@ -42,8 +42,8 @@ impl Material {
         !self.transparency.is_black()
     }
 
-    /// True if what it encloses bends or takes away light.
-    pub(crate) fn is_medium(&self) -> bool {
+    /// True if what a closed shape of it encloses bends light or takes it away.
+    pub(crate) fn fills_with_medium(&self) -> bool {
         self.is_clear() && (self.ior.is_some() || self.attenuation.is_some())
     }
 

@@ -66,11 +66,6 @@ impl Media {
         self.inside.is_empty()
     }
 
-    /// True if the primitive is among them.
-    pub(crate) fn contains(&self, primitive: u32) -> bool {
-        self.inside.contains(&primitive)
-    }
-
     /// The index of refraction here: that of the innermost medium that has one, 1 outside of all.
     pub(crate) fn ior(&self, scene: &CompiledScene) -> f64 {
         self.inside.iter().rev().find_map(|&id| scene.material(id).ior).unwrap_or(1.0)

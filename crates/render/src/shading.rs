@@ -19,6 +19,8 @@ pub(crate) struct Shading<'a> {
     pub(crate) normal: DVec3,
     /// True if that is the side that the surface's own normal points to.
     pub(crate) from_outside: bool,
+    /// True if the surface bounds a medium.
+    pub(crate) bounds_medium: bool,
 }
 
 impl<'a> Shading<'a> {
@@ -31,7 +33,8 @@ impl<'a> Shading<'a> {
         let color = scene.textures.color(material.color, &Textured { scene, object, surface: &surface, hit });
         let from_outside = ray.direction.dot(surface.normal) < 0.0;
         let normal = if from_outside { surface.normal } else { -surface.normal };
-        Shading { primitive: hit.primitive, surface, material, color, direction: ray.direction, normal, from_outside }
+        let (primitive, direction, bounds_medium) = (hit.primitive, ray.direction, object.is_medium);
+        Shading { primitive, surface, material, color, direction, normal, from_outside, bounds_medium }
     }
 
     /// The point from which rays start on the side that the ray came from.

@@ -44,11 +44,13 @@ fn through(transparency: Rgb, surfaces: u32) -> Rgb {
 fn through_media(scene: &CompiledScene, media: &Media, mut ray: Ray, mut reach: f64) -> Rgb {
     let mut left = Rgb::WHITE;
     let mut media = media.clone();
-    while let Some(hit) = scene.world.closest_hit(&ray, reach, CLEAR, None) {
+    // No shape has more than four surfaces one behind the other.
+    for _ in 0..4 * scene.objects.len() {
+        let Some(hit) = scene.world.closest_hit(&ray, reach, CLEAR, None) else { break };
         left *= media.transmittance(scene, hit.crossing.t);
         let surface = scene.world.surface(&ray, &hit);
         let side = ray.direction.dot(surface.normal);
-        if scene.material(hit.primitive).is_medium() {
+        if scene.objects[hit.primitive as usize].is_medium {
             let _ = media.cross(hit.primitive, side < 0.0);
         }
         reach -= hit.crossing.t;

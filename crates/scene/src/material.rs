@@ -30,12 +30,13 @@ pub struct Material {
     pub reflection: Rgb,
     /// Part of what lies behind that shows through, 0 to 1; the rest is the surface's own shade.
     pub transparency: Rgb,
-    /// Index of refraction of the inside; `None` lets light go straight through.
+    /// Index of refraction of the inside of closed shapes; `None`, and shapes that have no inside, let light go straight
+    /// through.
     pub ior: Option<f64>,
     /// Divides the light that shows through between refraction and reflection by Fresnel's equations; without it all
     /// is refracted, save at total internal reflection.
     pub fresnel: bool,
-    /// Colour taken on inside, by distance (Beer–Lambert).
+    /// Colour taken on inside of closed shapes, by distance (Beer–Lambert).
     pub attenuation: Option<Attenuation>,
 }
 

@@ -130,7 +130,7 @@ fn fresnel_divides_between_reflection_and_refraction() {
         // The same boundary passed the other way reflects as much.
         let inside = from_within(&text, (sin / 1.5).asin().to_degrees());
         for (seen, up) in [(outside, cos), (inside, -(1.0 - sin * sin / 2.25).sqrt())] {
-            let [through, back] = seen.ray.children.as_slice() else { panic!("two rays go on") };
+            let [back, through] = seen.ray.children.as_slice() else { panic!("two rays go on") };
             assert_eq!([through.kind, back.kind], [RayKind::Transmitted, RayKind::Reflected]);
             assert!((f64::from(back.weight.r) / 0.8 - reflected).abs() < 5e-5, "{degrees}°: {:?}", back.weight);
             assert_gray(through.weight + back.weight, 0.8);
@@ -220,7 +220,7 @@ fn an_eye_inside_nested_media_is_in_the_innermost() {
 fn light_that_goes_to_and_fro_in_a_slab_adds_up_to_the_series() {
     let seen = |background: &str| {
         let text = format!(
-            "render: {{max_depth: 40, min_weight: 0.0000002}}
+            "render: {{max_depth: 24, min_weight: 0.000001}}
 background: {background}
 lights: []
 objects:
@@ -235,4 +235,25 @@ objects:
     let inner = |a: f64| (1.0 - r).powi(2) * a / (1.0 - r * r * a * a);
     assert_color(seen("{bottom: 1, top: 0}"), [0.5, 0.9, 1.0].map(inner));
     assert_color(seen("{bottom: 0, top: 1}"), [0.5, 0.9, 1.0].map(|a| r + r * a * inner(a)));
+}
+
+/// A pane has no inside to be left in: light goes straight through, nothing is taken away behind it.
+#[test]
+fn sheets_bend_nothing_and_leave_no_medium_behind() {
+    for sheet in [
+        "rectangle: {corner: [-3, -3, 0], edges: [[6, 0, 0], [0, 6, 0]]",
+        "disc: {normal: [0, 0, 1], radius: 3",
+        "triangle: {vertices: [[-9, -9, 0], [9, -9, 0], [0, 9, 0]]",
+        "cylinder: {base: [0, -3, -2], top: [0, 3, -2], radius: 2, open: true",
+    ] {
+        let text = format!(
+            "background: 1
+lights: []
+objects:
+  - {sheet}, material: {{transparency: 1, ior: 1.5, attenuation: {{color: [0.1, 0.2, 0.3], distance: 1}}}}}}"
+        );
+        let seen = look(&text, [0.5, 0.2, 4.0], [0.0, 0.1, 0.0]);
+        assert_color(seen.color, [1.0; 3]);
+        assert!((seen.after(1).direction - seen.ray.direction).length() < 1e-12);
+    }
 }

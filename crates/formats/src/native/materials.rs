@@ -35,9 +35,9 @@ record!(Surface {
     shininess: f32 = Material::default().shininess => "The higher, the smaller and sharper the highlight.";
     reflection: Rgb = Rgb::BLACK => "Part of the mirrored light that is added, 0 to 1; a number or a color.";
     transparency: Rgb = Rgb::BLACK => "Part of what lies behind that shows through, 0 to 1; a number or a color.";
-    ior: Option<f64> = None => "Index of refraction of the inside (water 1.33, glass 1.5); without it light goes straight through.";
+    ior: Option<f64> = None => "Index of refraction of the inside (water 1.33, glass 1.5). Without it, and through shapes that have no inside, light goes straight.";
     fresnel: bool = false => "Divides the light between refraction and reflection by Fresnel's equations.";
-    attenuation: Option<Attenuation> = None => "Color taken on inside, by distance.";
+    attenuation: Option<Attenuation> = None => "Color taken on inside of closed shapes, by distance.";
 });
 
 record!(Attenuation {

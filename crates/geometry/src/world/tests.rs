@@ -191,3 +191,113 @@ fn crossings_of_a_closed_shape_come_in_pairs_for_rays_from_outside() {
     }
     assert!(fours > 50);
 }
+
+#[test]
+fn of_axis_aligned_faces_all_but_in_one_place_the_nearer_is_hit_and_of_equal_ones_the_first() {
+    let mut random = Random(11);
+    let sheet = |y: f64| {
+        Primitive::rectangle(DVec3::new(-3.0, y, 3.0), [DVec3::X * 6.0, DVec3::NEG_Z * 6.0], &DAffine3::IDENTITY)
+    };
+    for gap in [0.0, 1e-9, 1e-8, 1e-7] {
+        for y in [0.1, 0.3, 1.7, -0.9] {
+            // Enough things to make the tree a tree.
+            let mut primitives = vec![sheet(y), sheet(y + gap), sheet(y)];
+            primitives.extend((0..20).map(|_| random.primitive(0.1)));
+            let world = World::build(primitives.clone());
+            let vantage_point = DVec3::new(0.2, 5.0, 0.1);
+            let vantage = world.vantage(vantage_point);
+            for i in 0..2000 {
+                let origin = if i % 2 == 0 { vantage_point } else { random.point(2.0) + DVec3::Y * 5.0 };
+                let target = DVec3::new(random.number(-2.5, 2.5), y, random.number(-2.5, 2.5));
+                let ray = Ray { origin, direction: (target - origin).normalize() };
+                let expected = closest_by_hand(&primitives, &ray, f64::INFINITY, u32::MAX);
+                let list = if i % 2 == 0 { vantage.as_ref() } else { None };
+                assert_eq!(world.closest_hit(&ray, f64::INFINITY, u32::MAX, list), expected);
+            }
+        }
+    }
+}
+
+#[test]
+fn one_plane_written_twice_is_hit_as_the_first_whatever_finds_it() {
+    let scaled = DAffine3::from_scale(DVec3::new(3.0, 0.7, 5.0));
+    let primitives = vec![
+        Primitive::plane(DVec3::NEG_Y, DVec3::Y, &DAffine3::IDENTITY),
+        Primitive::plane(DVec3::NEG_Y / 0.7, DVec3::Y, &scaled),
+    ];
+    let world = World::build(primitives.clone());
+    let eye = DVec3::new(0.3, 1.9, 0.4);
+    let vantage = world.vantage(eye);
+    let mut random = Random(13);
+    for _ in 0..20_000 {
+        let direction = (random.point(1.0) - DVec3::Y * 1.2).normalize();
+        let ray = Ray { origin: eye, direction };
+        let expected = closest_by_hand(&primitives, &ray, f64::INFINITY, u32::MAX);
+        assert_eq!(world.closest_hit(&ray, f64::INFINITY, u32::MAX, vantage.as_ref()), expected);
+    }
+}
+
+#[test]
+fn a_plane_through_the_light_hides_no_other_plane() {
+    let level = |y: f64| Primitive::plane(DVec3::Y * y, DVec3::Y, &DAffine3::IDENTITY);
+    let world = World::build(vec![level(0.3), level(0.0), level(-2.0)]);
+    let light = DVec3::new(0.0, 0.3_f64.next_up(), 0.0);
+    let vantage = world.vantage(light);
+    let origin = DVec3::new(0.5, -1.9, 0.2);
+    let distance = (light - origin).length();
+    let ray = Ray { origin, direction: (light - origin) / distance };
+    let mut met = Vec::new();
+    world.any_hit(&ray, distance * (1.0 - 1e-12), vantage.as_ref(), |id, _| {
+        met.push(id);
+        false
+    });
+    assert!(met.contains(&1), "the plane between is met: {met:?}");
+}
+
+#[test]
+fn rays_leave_shapes_that_are_stretched_unevenly_and_askew() {
+    let mut random = Random(17);
+    for stretch in [1e2, 1e4, 1e6] {
+        for case in 0..300 {
+            let (turn, back) =
+                (rotation(random.direction(), random.number(0.0, 6.0)), rotation(random.direction(), 1.0));
+            let uneven = DMat3::from_diagonal(if case % 2 == 0 {
+                DVec3::new(stretch, 1.0, 1.0)
+            } else {
+                DVec3::new(1.0, stretch, stretch)
+            });
+            let map = DAffine3::from_mat3_translation(back * uneven * turn, random.point(10.0));
+            let ball = Primitive::sphere(DVec3::ZERO, 1.0, &map);
+            let target = map.transform_point3(random.point(0.5));
+            let origin = target + random.direction() * 4.0 * stretch;
+            let ray = Ray { origin, direction: (target - origin).normalize() };
+            let Some(crossing) = ball.intersect(&ray, f64::INFINITY) else { continue };
+            let surface = ball.surface(&ray, &crossing);
+            for _ in 0..40 {
+                let direction = random.direction();
+                let outward = direction * direction.dot(surface.normal).signum();
+                let leaving = Ray { origin: surface.point + surface.normal * surface.offset, direction: outward };
+                assert_eq!(ball.intersect(&leaving, f64::INFINITY), None, "stretch {stretch}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_tree_is_no_deeper_than_its_stack_allows() {
+    // Each thing is far smaller than the one before: area would peel them off one by one.
+    let size = |i: u32| (0..i).fold(1.0, |size: f64, _| size * 0.5);
+    let nested = |i: u32| {
+        let map = DAffine3::from_mat3_translation(
+            DMat3::from_diagonal(DVec3::splat(size(i % 60))),
+            DVec3::X * size(i % 60) * f64::from(i / 60 + 1),
+        );
+        Primitive::sphere(DVec3::ZERO, 1.0, &map)
+    };
+    let world = World::build((0..6000).map(nested).collect());
+    assert!(
+        world
+            .closest_hit(&Ray { origin: DVec3::X * 9000.0, direction: DVec3::NEG_X }, f64::INFINITY, 1, None)
+            .is_some()
+    );
+}

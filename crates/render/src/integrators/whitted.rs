@@ -7,13 +7,13 @@
 use super::Integrator;
 use crate::background::background;
 use crate::compile::CompiledScene;
-use crate::materials::{Material, reflect, refract};
-use crate::media::Media;
+use crate::materials::{reflect, refract};
+use crate::media::{Media, Undo};
 use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Source, SurfaceSeen};
 use crate::shading::{Shading, highlight};
 use crate::visibility::visibility;
 use durer_geometry::Ray;
-use durer_math::Rgb;
+use durer_math::{DVec3, Rgb};
 
 /// The classic integrator.
 pub(crate) struct Whitted;
@@ -36,6 +36,14 @@ struct Path<'a, O> {
     observer: &'a mut O,
 }
 
+/// How light gets through a surface.
+struct Boundary {
+    /// The direction behind it; `None` for total internal reflection.
+    onward: Option<DVec3>,
+    /// The part of it that gets through and is not reflected.
+    passed: f32,
+}
+
 impl<O: Observer> Path<'_, O> {
     /// Adds what arrives along a ray, times its weight.
     fn trace(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb) {
@@ -51,8 +59,7 @@ impl<O: Observer> Path<'_, O> {
                 let (surface, color, from_outside) = (shading.surface, shading.color, shading.from_outside);
                 self.observer.surface(&SurfaceSeen { hit, surface, color, from_outside });
                 self.shade(&shading, weight);
-                self.reflected(&shading, depth, weight);
-                self.transmitted(&shading, depth, weight);
+                self.go_on(&shading, depth, weight);
             }
         }
         self.observer.ray_ends();
@@ -110,52 +117,50 @@ impl<O: Observer> Path<'_, O> {
         }
     }
 
-    /// The mirror image.
-    fn reflected(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb) {
-        let reflection = shading.material.reflection;
-        if !reflection.is_black() {
+    /// The mirror image, and what lies behind.
+    fn go_on(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb) {
+        let material = shading.material;
+        let behind = weight * material.transparency;
+        let boundary = self.boundary(shading);
+        // What cannot get through comes from the mirrored direction, like what a mirror adds: one ray serves both.
+        let mirrored = weight * material.reflection + behind * (1.0 - boundary.passed);
+        if !mirrored.is_black() {
             let ray = shading.ray_back(reflect(shading.direction, shading.normal));
-            self.follow(RayKind::Reflected, depth, &ray, weight * reflection);
+            self.follow(RayKind::Reflected, depth, &ray, mirrored);
+        }
+        if material.is_clear()
+            && let Some(direction) = boundary.onward
+        {
+            let undo = match shading.bounds_medium {
+                true => self.media.cross(shading.primitive, shading.from_outside),
+                false => Undo::Nothing,
+            };
+            let ray = shading.ray_on(direction);
+            self.follow(RayKind::Transmitted, depth, &ray, behind * boundary.passed);
+            self.media.undo(undo);
         }
     }
 
-    /// What lies behind, seen straight or bent.
-    fn transmitted(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb) {
-        let material = shading.material;
-        if !material.is_clear() {
-            return;
+    /// How light gets through a surface that it may get through. Only the boundaries of media bend it; a clear sheet has
+    /// two such boundaries in the same place.
+    fn boundary(&mut self, shading: &Shading<'_>) -> Boundary {
+        let (direction, normal, material) = (shading.direction, shading.normal, shading.material);
+        let straight = Boundary { onward: Some(direction), passed: 1.0 };
+        let Some(ior) = material.ior.filter(|_| material.is_clear()) else { return straight };
+        let before = self.media.ior(self.scene);
+        let part_passed = |reflectance: f64| if material.fresnel { (1.0 - reflectance) as f32 } else { 1.0 };
+        if !shading.bounds_medium {
+            let reflectance = refract(direction, normal, before / ior).map_or(1.0, |refracted| refracted.reflectance);
+            return Boundary { passed: part_passed(reflectance), ..straight };
         }
-        let weight = weight * material.transparency;
-        if !material.is_medium() {
-            let ray = shading.ray_on(shading.direction);
-            return self.follow(RayKind::Transmitted, depth, &ray, weight);
-        }
-        let before = self.ior_before(shading, material);
         let undo = self.media.cross(shading.primitive, shading.from_outside);
         let after = self.media.ior(self.scene);
-        let refracted = refract(shading.direction, shading.normal, before / after);
-        let passed = match refracted {
-            None => 0.0,
-            Some(refracted) if material.fresnel => (1.0 - refracted.reflectance) as f32,
-            Some(_) => 1.0,
-        };
-        if let Some(refracted) = refracted {
-            let ray = shading.ray_on(refracted.direction);
-            self.follow(RayKind::Transmitted, depth, &ray, weight * passed);
-        }
         self.media.undo(undo);
-        if passed < 1.0 {
-            let ray = shading.ray_back(reflect(shading.direction, shading.normal));
-            self.follow(RayKind::Reflected, depth, &ray, weight * (1.0 - passed));
-        }
-    }
-
-    /// The index of refraction on the ray's side of the surface. A ray that leaves what it never entered (an open shape
-    /// seen from its back) is taken to have been inside.
-    fn ior_before(&self, shading: &Shading<'_>, material: &Material) -> f64 {
-        match material.ior {
-            Some(ior) if !shading.from_outside && !self.media.contains(shading.primitive) => ior,
-            _ => self.media.ior(self.scene),
+        match refract(direction, normal, before / after) {
+            Some(refracted) => {
+                Boundary { onward: Some(refracted.direction), passed: part_passed(refracted.reflectance) }
+            }
+            None => Boundary { onward: None, passed: 0.0 },
         }
     }
 

@@ -5,7 +5,7 @@ use super::values::Checker;
 use crate::{Antialias, Background, Camera, Fog, Light, LightKind, Material, Projection, Scene};
 
 /// The most rays that one ray of the eye may split into.
-const MOST_RAYS: f64 = 1e7;
+const MOST_RAYS: f64 = 1e8;
 /// The most pixels of a picture.
 const MOST_PIXELS: u64 = 400_000_000;
 
@@ -73,8 +73,8 @@ fn picture(c: &mut Checker<'_>) {
     }
 }
 
-/// How many rays one ray of the eye may split into, at most: it may double at each surface, and a ray that counts less
-/// than `min_weight` ends.
+/// How many rays one ray of the eye may split into, at most: it may double at each surface; and a ray that counts less
+/// than `min_weight` (in the color component where it counts most) ends, so that there are only so many on each level.
 fn most_rays(scene: &Scene) -> f64 {
     let splits = |m: &&Material| m.fresnel || !(m.reflection.is_black() || m.transparency.is_black());
     let sum = |m: &Material| (m.reflection + m.transparency).max_component().into();
@@ -83,7 +83,7 @@ fn most_rays(scene: &Scene) -> f64 {
     for _ in 0..scene.render.max_depth {
         (by_depth, by_weight) = (by_depth * 2.0, by_weight * growth.max(1.0));
     }
-    by_depth.min(by_weight)
+    by_depth.min(by_weight * 3.0 * f64::from(scene.render.max_depth))
 }
 
 fn render(c: &mut Checker<'_>) {
@@ -92,7 +92,7 @@ fn render(c: &mut Checker<'_>) {
     let weight = c.within("min_weight", settings.min_weight.into(), 0.0, 1.0);
     if depth && weight && most_rays(c.scene) > MOST_RAYS {
         let help = "lower `max_depth`, raise `min_weight`, or let `reflection` and `transparency` add up to less";
-        c.field("max_depth", |c| c.problem_with_help("a ray may split into more than ten million rays", help));
+        c.field("max_depth", |c| c.problem_with_help("a ray may split into more than a hundred million rays", help));
     }
     c.field("antialias", |c| match settings.antialias {
         Antialias::None => {}
