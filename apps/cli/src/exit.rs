@@ -13,7 +13,7 @@ Exit codes:
     3  the scene is wrong, or a file that it names
     4  a file cannot be read or written
     5  the system refused something else, such as starting threads
-  130  interrupted by Ctrl-C; `render` has saved what was finished";
+  130  interrupted by Ctrl-C, SIGTERM or SIGHUP; `render` has saved what was finished";
 
 /// How the program ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

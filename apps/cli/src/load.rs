@@ -57,11 +57,16 @@ impl SceneArgs {
 /// Finds out whether a file can be opened, so that one that cannot has an exit code of its own.
 fn readable(path: &Path) -> Result<(), Failure> {
     let cannot = |why: String| Failure::file(format!("cannot read {}: {why}", path.display()));
-    let file = std::fs::File::open(path).map_err(|error| cannot(error.to_string()))?;
-    match file.metadata() {
-        Ok(metadata) if metadata.is_dir() => Err(cannot("it is a folder".to_owned())),
-        Ok(_) | Err(_) => Ok(()),
+    if path == Path::new("-") {
+        return Err(Failure::usage("scenes cannot be read from standard input: give a file in place of `-`"));
     }
+    // Before it is opened, which may take forever if it is a pipe.
+    match std::fs::metadata(path) {
+        Ok(metadata) if metadata.is_dir() => return Err(cannot("it is a folder".to_owned())),
+        Ok(metadata) if !metadata.is_file() => return Err(cannot("it is not a regular file".to_owned())),
+        Ok(_) | Err(_) => {}
+    }
+    std::fs::File::open(path).map(drop).map_err(|error| cannot(error.to_string()))
 }
 
 fn tell(diagnostics: &Diagnostics) {

@@ -1,6 +1,7 @@
 //! Settings of the scene that the command line may change. The changed scene is checked again, so limits hold.
 
 use crate::exit::Failure;
+use clap::builder::RangedI64ValueParser;
 use clap::{Args, ValueEnum};
 use durer::CheckedScene;
 use durer::imaging::Transfer;
@@ -10,20 +11,20 @@ use durer::scene::{Antialias, Picture, Problem, Scene, Step};
 #[derive(Args, Debug, Default)]
 #[command(next_help_heading = "Instead of what the scene says")]
 pub(crate) struct Overrides {
-    /// Width in pixels; without --height the shape of the picture is kept
-    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(1..))]
+    /// Width in pixels, at most 65535; without --height the shape of the picture is kept
+    #[arg(long, value_name = "PIXELS", value_parser = length(), allow_negative_numbers = true)]
     width: Option<u32>,
 
-    /// Height in pixels; without --width the shape of the picture is kept
-    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(1..))]
+    /// Height in pixels, at most 65535; without --width the shape of the picture is kept
+    #[arg(long, value_name = "PIXELS", value_parser = length(), allow_negative_numbers = true)]
     height: Option<u32>,
 
-    /// Longest chain of rays; the eye's ray has depth 1
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    /// Longest chain of rays, from 1 (the eye's rays alone) to 100
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100), allow_negative_numbers = true)]
     max_depth: Option<u32>,
 
     /// Rays in a pixel: `none`, `grid:N` (N × N) or `recursive[:THRESHOLD[,DEPTH]]`
-    #[arg(long, value_name = "HOW", value_parser = antialias)]
+    #[arg(long, value_name = "HOW", value_parser = antialias, allow_hyphen_values = true)]
     antialias: Option<Antialias>,
 
     /// How light becomes the numbers of a PNG or JPEG
@@ -91,15 +92,25 @@ impl Overrides {
             Some(Step::Index(_) | Step::Material(_) | Step::Texture(_) | Step::Image(_)) | None => "",
         };
         match (field(0), field(1)) {
-            ("picture", "height") if self.height.is_none() => "--width",
-            ("picture", "width") if self.width.is_none() => "--height",
+            ("picture", "height") if self.height.is_none() => "--width, from which the height follows",
+            ("picture", "width") if self.width.is_none() => "--height, from which the width follows",
             ("picture", "height") => "--height",
-            ("picture", _) => "--width",
+            ("picture", "width") => "--width",
+            ("picture", _) => match (self.width, self.height) {
+                (Some(_), Some(_)) => "--width and --height",
+                (None, Some(_)) => "--height",
+                (_, None) => "--width",
+            },
             ("render", "max_depth") => "--max-depth",
             ("render", _) => "--antialias",
             _ => "the scene with these options",
         }
     }
+}
+
+/// What scenes take as a width or height.
+fn length() -> RangedI64ValueParser<u32> {
+    RangedI64ValueParser::new().range(1..=65_535)
 }
 
 fn antialias(text: &str) -> Result<Antialias, String> {

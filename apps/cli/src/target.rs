@@ -14,7 +14,7 @@ pub(crate) struct FileOptions {
     bit_depth: Option<BitDepth>,
 
     /// Quality of JPEG, from 1 to 100 [default: 92]
-    #[arg(long, value_name = "1-100", value_parser = clap::value_parser!(u8).range(1..=100))]
+    #[arg(long, value_name = "1-100", value_parser = clap::value_parser!(u8).range(1..=100), allow_negative_numbers = true)]
     quality: Option<u8>,
 }
 
@@ -65,8 +65,9 @@ impl FileOptions {
         match (self.quality, format) {
             (None, _) => {}
             (Some(quality), FileFormat::Jpeg) => options.jpeg_quality = quality,
-            (Some(_), FileFormat::Png | FileFormat::Exr | FileFormat::Hdr | FileFormat::Pfm) => {
-                return Err(Failure::usage(format!("--quality is for JPEG; {} loses nothing by it", format.name())));
+            (Some(_), FileFormat::Png) => return Err(Failure::usage("--quality is for JPEG; PNG is lossless")),
+            (Some(_), FileFormat::Exr | FileFormat::Hdr | FileFormat::Pfm) => {
+                return Err(Failure::usage(format!("--quality is for JPEG; {} has no such choice", format.name())));
             }
         }
         Ok(options)

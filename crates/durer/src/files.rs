@@ -1,7 +1,7 @@
 //! Picture files: written whole or not at all.
 
 use durer_imaging::{Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, Image, decode, encode};
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -23,6 +23,13 @@ pub struct PictureFile {
 pub enum WriteError {
     /// The picture does not fit the format.
     Encode(EncodeError),
+    /// The folder that it is to lie in does not exist.
+    NoFolder {
+        /// The picture.
+        path: PathBuf,
+        /// The folder.
+        folder: PathBuf,
+    },
     /// The system refused.
     Io {
         /// The file it refused.
@@ -54,8 +61,23 @@ impl PictureFile {
         hidden.push(name);
         hidden.push(format!(".{}.part", std::process::id()));
         let temporary = path.with_file_name(hidden);
-        let file = File::create(&temporary).map_err(io)?;
+        let file = File::create(&temporary).map_err(|error| match missing_folder(path) {
+            Some(folder) => WriteError::NoFolder { path: path.to_owned(), folder: folder.to_owned() },
+            None => io(error),
+        })?;
         Ok(PictureFile { path: path.to_owned(), temporary, file: Some(file) })
+    }
+
+    /// The file that is there until the picture is written.
+    pub fn temporary(&self) -> &Path {
+        &self.temporary
+    }
+
+    /// Gives the picture another name, in the same folder.
+    #[must_use]
+    pub fn with_name(mut self, name: &OsStr) -> PictureFile {
+        self.path.set_file_name(name);
+        self
     }
 
     /// Writes the picture and gives it its name; gives the number of bytes.
@@ -80,6 +102,10 @@ impl Drop for PictureFile {
     }
 }
 
+fn missing_folder(path: &Path) -> Option<&Path> {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.exists())
+}
+
 /// Reads a picture file of any format that we know.
 pub fn read_picture(path: &Path, limits: &DecodeLimits) -> Result<Bitmap, ReadError> {
     let bytes = fs::read(path).map_err(|error| ReadError::Io(path.to_owned(), error))?;
@@ -90,6 +116,10 @@ impl std::fmt::Display for WriteError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             WriteError::Encode(error) => error.fmt(f),
+            WriteError::NoFolder { path, folder } => {
+                let (path, folder) = (path.display(), folder.display());
+                write!(f, "cannot write {path}: there is no folder `{folder}`; create it first")
+            }
             WriteError::Io { path, error } => write!(f, "cannot write {}: {error}", path.display()),
         }
     }
@@ -125,9 +155,25 @@ mod tests {
     }
 
     #[test]
+    fn a_picture_with_another_name_leaves_the_old_one_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        fs::write(&path, "old").unwrap();
+        let file = PictureFile::create(&path).unwrap().with_name(OsStr::new("b.png"));
+        assert!(file.temporary().exists());
+        file.write(&Image::new(2, 2), &EncodeOptions::default()).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert!(folder.path().join("b.png").exists());
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+    }
+
+    #[test]
     fn a_missing_folder_is_found_before_the_work() {
         let folder = tempfile::tempdir().unwrap();
-        assert!(PictureFile::create(&folder.path().join("no/such/a.png")).is_err());
+        let missing = PictureFile::create(&folder.path().join("no/such/a.png"));
+        assert!(
+            matches!(missing, Err(WriteError::NoFolder { folder: missing, .. }) if missing == folder.path().join("no/such"))
+        );
         assert!(PictureFile::create(folder.path()).is_err());
     }
 }

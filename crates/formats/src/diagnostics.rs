@@ -105,7 +105,10 @@ impl Complaint {
 
     /// Adds help that comes from a look at the line that it is about, if there is no help yet.
     pub(crate) fn help_from_line(self, source: &str, advise: impl Fn(&str) -> Option<String>) -> Complaint {
-        let start = source.floor_char_boundary(self.span.start);
+        let mut start = self.span.start.min(source.len());
+        while !source.is_char_boundary(start) {
+            start -= 1;
+        }
         let before = source[..start].rfind('\n').map_or(0, |at| at + 1);
         let line = source[before..].lines().next().unwrap_or_default();
         let help = self.help.clone().or_else(|| advise(line));
@@ -184,6 +187,13 @@ mod tests {
         let complaint = Complaint::error(Span::new(start, start + 3), "wrong").label("this");
         let shown = Diagnostics::new(vec![complaint], "long.yaml", &source, 5).to_string();
         assert!(shown.len() < 1000 && shown.contains("BAD") && shown.contains("^^^ this"), "{shown}");
+    }
+
+    #[test]
+    fn a_byte_order_mark_takes_no_column() {
+        let complaint = Complaint::error(Span::new(3, 5), "wrong");
+        let shown = Diagnostics::new(vec![complaint], "x", "\u{feff}ab", 1).to_string();
+        assert!(shown.contains("x:1:1") && !shown.contains('\u{feff}'), "{shown}");
     }
 
     #[test]

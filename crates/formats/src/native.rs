@@ -64,6 +64,10 @@ fn load_tree(text: &str, assets: &dyn Assets, limits: &Limits) -> (Option<Checke
     let mut complaints = std::mem::take(&mut decoder.complaints);
     match checked {
         Ok(scene) => {
+            if complaints.is_empty() && scene.scene().objects.is_empty() {
+                let span = root.get("objects").map_or(Span::default(), |(key, _)| key.span);
+                complaints.push(Complaint::warning(span, "nothing to see: the scene has no objects"));
+            }
             let usable = !complaints.iter().any(Complaint::is_error);
             (usable.then_some(scene), complaints)
         }

@@ -14,9 +14,9 @@ Examples:
   durer compare before.png after.png
   durer compare before.png after.png --threshold 0.01 --diff difference.png
 
-Pictures are compared as a screen shows them: clamped to black and white, sRGB-encoded, numbers
-from 0 to 1. FLIP is the difference that the eye sees when it flips between the two (Andersson et
-al. 2020).
+Pictures are compared as a screen shows them: clamped to black and white, sRGB-encoded,
+numbers from 0 to 1. FLIP is the difference that the eye sees when it flips between the
+two (Andersson et al. 2020).
 
 Exit codes:
     0  the mean FLIP error is not above the threshold; with threshold 0, no pixel differs
@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     b: PathBuf,
 
     /// Largest mean FLIP error that still counts as equal, from 0 (no pixel may differ) to 1
-    #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = threshold)]
+    #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = threshold, allow_negative_numbers = true)]
     threshold: f64,
 
     /// Write the FLIP error of each pixel as a picture, from black (none) to pale yellow (1)

@@ -21,9 +21,9 @@ Examples:
   durer explain room.yaml --pixel 120,43 --antialias none
   durer explain room.yaml --pixel 120,43 --json > pixel.json
 
-Pixels are counted from the upper left corner, from 0. The three numbers at the right of a line
-are what it adds to the red, green and blue of the sample, all weights included; added up from
-top to bottom they give the pixel as rendered, to the last bit.";
+Pixels are counted from the upper left corner, from 0. The three numbers at the right
+of a line are what it adds to the red, green and blue of the sample, all weights
+included; added up from top to bottom they give the pixel as rendered, to the last bit.";
 
 /// Show all rays of one pixel, what they hit, and what each adds to it
 #[derive(Args, Debug)]
@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     scene: SceneArgs,
 
     /// The pixel: column from the left and row from the top, from 0
-    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pixel: (u32, u32),
 
     /// Print everything as JSON

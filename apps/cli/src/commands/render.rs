@@ -10,7 +10,7 @@ use crate::overrides::Overrides;
 use crate::target::{self, FileOptions};
 use clap::{Args, ValueEnum};
 use durer::imaging::EncodeOptions;
-use durer::{CheckedScene, Film, PictureFile, Region, RenderOptions};
+use durer::{CheckedScene, Film, PictureFile, Region, RenderError, RenderOptions};
 use interrupt::Interrupt;
 use progress::Bar;
 use report::{Report, Seconds};
@@ -25,9 +25,10 @@ Examples:
   durer render room.yaml --crop 100,80,64,64 -o detail.png
   durer render room.yaml --antialias recursive:0.1,3 --stats json > room.json
 
-The format follows the extension: png, jpg, exr, hdr or pfm. The picture is the same whatever
-the number of threads. Ctrl-C stops after the tiles being worked on and saves what is finished;
-the second one quits at once.";
+The format follows the extension: png, jpg, exr, hdr or pfm. The picture is the same
+whatever the number of threads. Ctrl-C stops after the tiles being worked on and saves
+what is finished beside the picture, as room.partial.png for room.png, which stays as it
+was; the second Ctrl-C quits at once.";
 
 /// Render a scene to a picture file
 #[derive(Args, Debug)]
@@ -41,11 +42,11 @@ pub(crate) struct Arguments {
     output: Option<PathBuf>,
 
     /// Render only this part: left, top, width and height in pixels
-    #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
+    #[arg(long, value_name = "X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
     crop: Option<Region>,
 
     /// Number of threads [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     threads: Option<u16>,
 
     /// Print statistics to standard output, in place of the line at the end
@@ -78,24 +79,31 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let (scene, load) = timed(|| arguments.overrides.apply(arguments.scene.load()?));
     let scene = scene?;
     options.transfer = scene.scene().picture.transfer;
-    let interrupt = Interrupt::new(PictureFile::create(&path)?);
+    arguments.check_crop(&scene)?;
+    let interrupt = Interrupt::new();
+    let file = PictureFile::create(&path)?;
+    interrupt.removes(file.temporary());
     let (film, build, render) = arguments.trace(&scene, &interrupt)?;
     let report = Report::new(arguments.scene.path.clone(), path, format, &film);
     let seconds = Seconds { load, build, render, write: 0.0 };
-    finish(arguments, film, &interrupt, &options, report.with_seconds(seconds))
+    finish(arguments, film, file, &options, report.with_seconds(seconds))
 }
 
 /// Writes what there is, and says so.
 fn finish(
     arguments: &Arguments,
     film: Film,
-    interrupt: &Interrupt,
+    file: PictureFile,
     options: &EncodeOptions,
     mut report: Report,
 ) -> Result<Exit, Failure> {
-    let Some(file) = interrupt.take_file().filter(|_| film.finished_pixels() > 0) else {
+    if film.finished_pixels() == 0 {
         report.tell_nothing();
         return Err(Failure::Told(Exit::Interrupted));
+    }
+    let file = match report.is_complete() {
+        true => file,
+        false => file.with_name(&report.name_of_part()),
     };
     let (bytes, write) = timed(|| file.write(&film.develop(), options));
     report.written(bytes?, write);
@@ -120,6 +128,17 @@ impl Arguments {
         }
     }
 
+    /// Finds out whether the part lies within the picture, before there is any file.
+    fn check_crop(&self, scene: &CheckedScene) -> Result<(), Failure> {
+        let picture = scene.scene().picture;
+        match self.crop {
+            Some(region) if !within(region, picture.width, picture.height) => {
+                Err(RenderError::RegionOutside { region, picture: (picture.width, picture.height) }.into())
+            }
+            Some(_) | None => Ok(()),
+        }
+    }
+
     /// The film, and the seconds for building and for tracing.
     fn trace(&self, scene: &CheckedScene, interrupt: &Interrupt) -> Result<(Film, f64, f64), Failure> {
         let (compiled, build) = timed(|| durer::compile(scene));
@@ -138,10 +157,16 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
     (value, start.elapsed().as_secs_f64())
 }
 
+fn within(region: Region, width: u32, height: u32) -> bool {
+    let ends = |start: u32, length: u32| u64::from(start) + u64::from(length);
+    ends(region.x, region.width) <= u64::from(width) && ends(region.y, region.height) <= u64::from(height)
+}
+
 fn crop(text: &str) -> Result<Region, String> {
     let numbers: Result<Vec<u32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
     match numbers.as_deref() {
-        Ok(&[x, y, width, height]) if width > 0 && height > 0 => Ok(Region { x, y, width, height }),
+        Ok(&[_, _, 0, _] | &[_, _, _, 0]) => Err("width and height of the region must be at least 1".to_owned()),
+        Ok(&[x, y, width, height]) => Ok(Region { x, y, width, height }),
         Ok(_) | Err(_) => Err("expected four whole numbers, X,Y,W,H, for example 100,80,64,64".to_owned()),
     }
 }

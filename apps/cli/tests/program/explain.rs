@@ -1,6 +1,6 @@
 //! `durer explain`.
 
-use crate::workshop::Workshop;
+use crate::workshop::{ROOM, Workshop};
 use serde_json::Value;
 
 /// The bits of three numbers in JSON.
@@ -58,13 +58,15 @@ fn the_sum_is_the_pixel_bit_for_bit() {
 #[test]
 fn people_read_a_tree() {
     let workshop = Workshop::new();
+    // Without the limit of weight, so that depth is what ends the tree.
+    workshop.put("room.yaml", &ROOM.replace("{antialias: none}", "{antialias: none, min_weight: 0}"));
     let text = workshop.fine("explain room.yaml --pixel 12,8").stdout;
     let expected = [
         "room.yaml: pixel 12,8 of 24 × 16, 1 sample",
         "ray of the eye, depth 1",
         "hits sphere \"ball\" after ",
-        "├─ transmitted ray, depth 2, weight ",
-        "└─ reflected ray, depth 2, weight ",
+        "├─ reflected ray, depth 2, weight ",
+        "└─ transmitted ray, depth 2, weight ",
         "light \"lamp\": ",
         "lights[1]: ",
         "not traced, deeper than max_depth",
@@ -114,6 +116,7 @@ fn pixels_outside_are_a_wrong_command() {
     let workshop = Workshop::new();
     workshop.fails("explain room.yaml --pixel 24,0", 2, "24,0 is outside of the picture of 24 × 16 pixels");
     workshop.fails("explain room.yaml --pixel 24", 2, "--pixel");
+    workshop.fails("explain room.yaml --pixel -1,0", 2, "expected two whole numbers");
     workshop.fails("explain room.yaml", 2, "--pixel");
     workshop.fails("explain bad.yaml --pixel 0,0", 3, "radius");
 }

@@ -24,6 +24,20 @@ fn a_wrong_scene_is_told_with_its_places() {
 }
 
 #[test]
+fn a_scene_is_a_file() {
+    let workshop = Workshop::new();
+    for words in ["check -", "info -", "explain - --pixel 0,0", "render - -o a.png"] {
+        workshop.fails(words, 2, "cannot be read from standard input: give a file");
+    }
+    workshop.fails("check .", 4, "it is a folder");
+    #[cfg(unix)]
+    {
+        assert!(std::process::Command::new("mkfifo").arg(workshop.path("pipe")).status().unwrap().success());
+        workshop.fails("check pipe", 4, "it is not a regular file");
+    }
+}
+
+#[test]
 fn color_follows_the_conventions() {
     let workshop = Workshop::new();
     let colored = |variable: &str, value: &str| {

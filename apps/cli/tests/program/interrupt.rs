@@ -22,7 +22,11 @@ fn start(workshop: &Workshop, words: &str) -> Child {
 }
 
 fn interrupt(child: &Child) {
-    let status = Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status().unwrap();
+    send(child, "INT");
+}
+
+fn send(child: &Child, signal: &str) {
+    let status = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
     assert!(status.success());
 }
 
@@ -33,6 +37,7 @@ fn end(child: Child) -> Ran {
 #[test]
 fn the_first_one_saves_what_is_finished() {
     let workshop = Workshop::new();
+    workshop.put("room.png", "the old picture");
     let child = start(&workshop, LONG);
     std::thread::sleep(Duration::from_millis(1500));
     interrupt(&child);
@@ -40,15 +45,31 @@ fn the_first_one_saves_what_is_finished() {
     assert_eq!(ran.code, Some(130), "{}", ran.stderr);
     assert!(ran.stderr.contains("interrupted"), "{}", ran.stderr);
     assert!(!workshop.names().iter().any(|name| name.ends_with(".part")), "{:?}", workshop.names());
+    assert_eq!(workshop.bytes("room.png"), b"the old picture");
+    assert!(ran.stderr.ends_with("room.png is as it was\n"), "{}", ran.stderr);
     // On a machine too slow for a single tile there is no picture, and the program says so.
-    if ran.stderr.contains("is not written") {
-        return assert!(!workshop.path("room.png").exists());
+    if ran.stderr.contains("before any tile") {
+        return assert!(!workshop.path("room.partial.png").exists());
     }
-    let picture = workshop.picture("room.png");
+    assert!(ran.stderr.contains("interrupted: room.partial.png has "), "{}", ran.stderr);
+    let picture = workshop.picture("room.partial.png");
     assert_eq!((picture.width, picture.height), (1500, 1000));
     assert!(
         picture.pixels.iter().any(|color| color.is_black()) && picture.pixels.iter().any(|color| !color.is_black())
     );
+}
+
+#[test]
+fn other_calls_to_end_are_heeded_as_well() {
+    for signal in ["TERM", "HUP"] {
+        let workshop = Workshop::new();
+        let child = start(&workshop, LONG);
+        send(&child, signal);
+        let ran = end(child);
+        assert_eq!(ran.code, Some(130), "{signal}: {}", ran.stderr);
+        assert!(ran.stderr.ends_with("room.png is not written\n"), "{signal}: {}", ran.stderr);
+        assert!(!workshop.names().iter().any(|name| name.ends_with(".part")), "{:?}", workshop.names());
+    }
 }
 
 #[test]

@@ -58,10 +58,11 @@ fn wrong_outputs_are_found_before_rendering() {
     workshop.fails("render room.yaml -o a.gif", 2, "extension `gif`");
     workshop.fails("render room.yaml -o a", 2, "no extension");
     workshop.fails("render room.yaml -o -", 2, "standard output");
-    workshop.fails("render room.yaml -o no/such/a.png", 4, "no/such/a.png");
+    workshop.fails("render room.yaml -o no/such/a.png", 4, "there is no folder `no/such`");
+    workshop.fails("render room.yaml -o a.png --crop 20,0,5,5", 2, "--crop");
     workshop.fails("render room.yaml -o a.png --bit-depth half", 2, "8 or 16");
     workshop.fails("render room.yaml -o a.exr --bit-depth 16", 2, "half or float");
-    workshop.fails("render room.yaml -o a.png --quality 80", 2, "--quality");
+    workshop.fails("render room.yaml -o a.png --quality 80", 2, "--quality is for JPEG; PNG is lossless");
     assert_eq!(workshop.names(), ["bad.yaml", "room.yaml"]);
 }
 
@@ -101,15 +102,19 @@ fn the_command_line_wins_over_the_file() {
 #[test]
 fn settings_beyond_the_limits_name_their_option() {
     let workshop = Workshop::new();
-    workshop.fails("render room.yaml --width 4000000000", 2, "--width");
-    workshop.fails("render room.yaml --height 4000000000", 2, "--height");
-    workshop.fails("render room.yaml --width 0", 2, "--width");
+    workshop.fails("render room.yaml --width 70000", 2, "'--width <PIXELS>': 70000 is not in 1..=65535");
+    workshop.fails("render room.yaml --height 65535", 2, "--height, from which the width follows: width must be");
+    workshop.fails("render room.yaml --width 0", 2, "0 is not in 1..=65535");
+    workshop.fails("render room.yaml --height 30000", 2, "--height: a picture may have at most 400 million pixels");
     workshop.fails("render room.yaml --antialias grid:100000", 2, "--antialias");
     workshop.fails("render room.yaml --antialias recursive:nan", 2, "--antialias");
     workshop.fails("render room.yaml --antialias often", 2, "recursive[:THRESHOLD");
-    workshop.fails("render room.yaml --max-depth 100000", 2, "--max-depth");
+    workshop.fails("render room.yaml --max-depth 0", 2, "0 is not in 1..=100");
     workshop.fails("render room.yaml --crop 20,0,5,5", 2, "--crop");
     workshop.fails("render room.yaml --crop 1,2,3", 2, "--crop");
+    workshop.fails("render room.yaml --crop -1,0,2,2", 2, "expected four whole numbers");
+    workshop.fails("render room.yaml --crop 0,0,0,0", 2, "width and height of the region must be at least 1");
+    workshop.fails("render room.yaml --threads -1", 2, "-1 is not in 1..=1024");
     workshop.fails("render room.yaml --threads 0", 2, "--threads");
 }
 

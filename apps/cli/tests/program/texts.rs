@@ -15,6 +15,8 @@ fn help_has_examples_and_exit_codes() {
         let help = workshop.fine(&format!("{command} --help")).stdout;
         assert!(help.contains("Example") && help.contains("\n  durer "), "{command}: {help}");
         assert!(help.lines().all(|line| line.chars().count() <= 100), "{command}: {help}");
+        let examples = help.split_once("Example").unwrap().1;
+        assert!(examples.lines().all(|line| line.chars().count() <= 90), "{command}: {help}");
     }
     assert_eq!(workshop.fine("--version").stdout, "durer 0.1.0\n");
     workshop.fails("", 2, "Usage");

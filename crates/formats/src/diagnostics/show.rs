@@ -56,7 +56,9 @@ fn snippet<'a>(
     kind: AnnotationKind,
 ) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
     let span = within(source, &span);
-    let start = source[..span.start].rfind('\n').map_or(0, |newline| newline + 1);
+    let bom = if source.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+    let span = span.start.max(bom)..span.end.max(bom);
+    let start = source[..span.start].rfind('\n').map_or(bom, |newline| newline + 1);
     let end = source[start..].find('\n').map_or(source.len(), |newline| start + newline);
     let line_number = source[..start].bytes().filter(|&b| b == b'\n').count() + 1;
     let (cut, span) = cut_line(&source[start..end], span.start - start..span.end.min(end).max(span.start) - start);

@@ -101,7 +101,8 @@ impl<'n, 'd, 'a> Fields<'n, 'd, 'a> {
     pub(crate) fn of_record(node: &'n Rc<Node>, cx: &'d mut Decoder<'a>, title: &'static str) -> Option<Self> {
         let NodeKind::Mapping(entries) = &node.kind else {
             let noun = format!("the fields of `{title}`");
-            return cx.expected_noun(node, &noun, None);
+            let advice = node.text().and_then(super::hints::glued).map(|(_, help)| help);
+            return cx.expected_noun(node, &noun, advice);
         };
         Some(Fields::new(cx, title, first_key(node), entries))
     }
@@ -134,7 +135,8 @@ impl<'n, 'd, 'a> Fields<'n, 'd, 'a> {
             Some((_, value)) if value.is_null() => &[][..],
             Some((NodeKind::Mapping(entries), _)) => entries,
             Some((_, value)) => {
-                let advice = Some(format!("write `{word}: {{…}}`"));
+                let glued = value.text().and_then(super::hints::glued).map(|(_, help)| help);
+                let advice = glued.or_else(|| Some(format!("write `{word}: {{…}}`")));
                 return cx.expected_noun(value, &format!("the fields of `{word}`"), advice);
             }
         };
@@ -201,7 +203,7 @@ impl<'n, 'd, 'a> Fields<'n, 'd, 'a> {
                 let known = if self.cx.is_tired() { &[][..] } else { &self.asked };
                 let help = super::hints::unknown_field(self.title, name, value, known);
                 let message = match self.title {
-                    "scene" => format!("unknown field `{}`", shorten(name)),
+                    "scene" => format!("unknown field `{}` of the scene", shorten(name)),
                     title => format!("unknown field `{}` of `{title}`", shorten(name)),
                 };
                 let _: Option<()> = self.cx.complain(Complaint::error(key.span, message).help(help));

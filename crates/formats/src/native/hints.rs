@@ -19,8 +19,61 @@ pub(crate) fn unquoted_color(line: &str) -> Option<String> {
     Some(format!("` #` starts a comment: put the color in quotes: `\"#{color}\"`"))
 }
 
+/// Advice for text where a number should be.
+pub(crate) fn number(node: &Node) -> Option<String> {
+    let text = node.text()?;
+    if node.is_not_finite() {
+        return Some("numbers must be finite".to_owned());
+    }
+    let with_point = text.replacen(',', ".", 1);
+    if text.matches(',').count() == 1 && with_point.parse::<f64>().is_ok() {
+        return Some(format!("decimals are written with a point: `{}`", with_point.replace(' ', "")));
+    }
+    let start = text.trim_end_matches(|c: char| c.is_alphabetic() || c == '°' || c == '%' || c == ' ');
+    if start.len() < text.len() && start.parse::<f64>().is_ok() {
+        return Some(format!("write the number alone, without a unit: `{start}`"));
+    }
+    if node.is_quoted() && text.parse::<f64>().is_ok() {
+        return Some("remove the quotes".to_owned());
+    }
+    text.contains(['*', '/', '(']).then(|| "scene files do not calculate: write the result".to_owned())
+}
+
+/// Help for a word that is not parted from what belongs to it as it should be: `sphere:{…}`, `sphere {…}`, `radius=1`.
+pub(crate) fn glued(text: &str) -> Option<(&str, String)> {
+    let text = text.trim();
+    let (word, rest) = text.split_at(text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_')?);
+    let rest = rest.trim_start();
+    if !word.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        return None;
+    }
+    let after = rest.get(1..).unwrap_or_default();
+    let value = match after.trim_start().chars().next() {
+        Some('{') => "{…}".to_owned(),
+        Some('[') => "[…]".to_owned(),
+        Some(_) => shorten(after.trim()),
+        None => "…".to_owned(),
+    };
+    let help = match rest.chars().next()? {
+        ':' if after.starts_with(|c: char| !c.is_whitespace()) => {
+            format!("put a space after the colon: `{word}: {value}`")
+        }
+        '{' => format!("put a colon and a space after `{word}`: `{word}: {{…}}`"),
+        '=' => format!("write `{word}: {value}`"),
+        _ => return None,
+    };
+    Some((word, help))
+}
+
+fn glued_to(text: &str, known: &[&str]) -> Option<String> {
+    glued(text).filter(|(word, _)| known.contains(word)).map(|(_, help)| help)
+}
+
 /// Help for a field that `title` does not have.
 pub(crate) fn unknown_field(title: &str, name: &str, value: &Node, known: &[&str]) -> String {
+    if let Some(help) = glued_to(name, known) {
+        return help;
+    }
     if STEPS.contains(&name) && known.contains(&"transform") {
         let help = "put it under `transform:`, a list of steps";
         return match name {
@@ -55,6 +108,9 @@ pub(crate) fn unknown_field(title: &str, name: &str, value: &Node, known: &[&str
 
 /// Help for a kind that does not exist.
 pub(crate) fn unknown_kind(word: &str, value: Option<&Node>, noun: &str, words: &[&str]) -> String {
+    if let Some(help) = glued_to(word, words) {
+        return help;
+    }
     if (word == "type" || word == "kind") && value.is_some() {
         let kind = value.and_then(Node::text).unwrap_or("sphere");
         return format!("the kind is written as the key: `{}: {{…}}`", shorten(kind));
@@ -89,7 +145,10 @@ pub(crate) fn several_kinds(first: &Entry, others: &[Entry], noun: &str, words: 
         }
         (Some(kind), Some(second)) => {
             let message = format!("`{}` and `{}` in one {noun}", name(kind), name(second));
-            let help = format!("begin the second {noun} with `- ` on a line of its own");
+            let help = match noun {
+                "object" | "light" => format!("begin the second {noun} with `- ` on a line of its own"),
+                _ => format!("give one of the two: `{}` or `{}`", name(kind), name(second)),
+            };
             Complaint::error(second.0.span, message).help(help).also(kind.0.span, "the first kind")
         }
         (None, _) => {

@@ -26,6 +26,7 @@ impl Value for Rgb {
             }
             NodeKind::Sequence(_) => components(node, cx),
             NodeKind::Scalar { .. } if number_text(node).is_some() => f32::decode(node, cx).map(Rgb::gray),
+            NodeKind::Scalar { .. } if node.is_not_finite() => f32::decode(node, cx).map(Rgb::gray),
             NodeKind::Scalar { text, .. } if !node.is_null() => match colors::parse(text) {
                 Some(color) => Some(color),
                 None if cx.is_tired() => cx.refuse(node, &format!("unknown color `{}`", shorten(text))),
@@ -119,12 +120,15 @@ impl Item for Paint {
 }
 
 /// A texture of the file, or else a colour.
-fn named(node: &Node, text: &str, cx: &mut Decoder<'_>) -> Option<Paint> {
+fn named(node: &Rc<Node>, text: &str, cx: &mut Decoder<'_>) -> Option<Paint> {
     if let Some(id) = cx.texture_names.get(text) {
         return Some(Paint::Texture(TextureId(*id)));
     }
     if let Some(color) = colors::parse(text) {
         return Some(Paint::Color(color));
+    }
+    if node.is_not_finite() {
+        return f32::decode(node, cx).map(|gray| Paint::Color(Rgb::gray(gray)));
     }
     if cx.is_tired() {
         return cx.refuse(node, &format!("unknown color `{}`", shorten(text)));

@@ -46,7 +46,8 @@ const LIMITS: &str = "## Limits
 Coordinates and lengths are at most 1e12 in size; radii, widths and distances are at least 1e-9; directions are at
 least 1e-9 long. Transforms must be reversible, also all together: no step may flatten or stretch space by more than a
 factor of 1e9. Pictures have at most 65535 pixels a side and 400 million in all. Groups nest at most 64 deep, textures
-at most 32. Image files must lie in the folder of the scene file or in one given by `--allow-path`.
+at most 32. A ray may split into at most 100 million rays; `max_depth` and `min_weight` bound how many it can become.
+Image files must lie in the folder of the scene file or in one given by `--allow-path`.
 ";
 
 /// The reference page, in Markdown.
@@ -97,12 +98,14 @@ fn table(page: &mut String, fields: &[FieldAbout]) {
         return;
     }
     *page += "| field | type | default | |\n|---|---|---|---|\n";
-    for FieldAbout { key, about, noun, default, .. } in fields {
+    for FieldAbout { key, about, noun, schema, default } in fields {
         let default = match default {
             DefaultAbout::Required => "*required*".to_owned(),
             DefaultAbout::SameAs(other) => format!("as `{other}`"),
             DefaultAbout::Value(Out::Null) => "–".to_owned(),
             DefaultAbout::Value(Out::Text(words)) => words.clone(),
+            // Things by name: none of them.
+            DefaultAbout::Value(Out::Fields(_)) if schema["additionalProperties"].is_object() => "`{}`".to_owned(),
             DefaultAbout::Value(Out::Fields(fields)) if fields.is_empty() => "all defaults".to_owned(),
             DefaultAbout::Value(value) => format!("`{}`", value.to_flow()),
         };

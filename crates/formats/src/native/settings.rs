@@ -66,6 +66,9 @@ impl Value for Antialias {
         if number_text(node).is_some() || matches!(node.text(), Some("true" | "false")) {
             return cx.expected_noun(node, &Self::noun(), Some("for example `antialias: {grid: 3}`".to_owned()));
         }
+        if let Some(advice) = node.text().and_then(from_command_line) {
+            return cx.expected_noun(node, &Self::noun(), Some(advice));
+        }
         super::record::decode_choice(node, cx)
     }
     fn encode(&self, writer: &Writer<'_>) -> Out {
@@ -80,6 +83,22 @@ impl Value for Antialias {
             *grid = json!({ "description": grid["description"], "anyOf": [{ "type": "integer", "minimum": 1, "maximum": 64 }, grid.clone()] });
         }
         schema
+    }
+}
+
+/// What to write for `grid:4` and `recursive:0.1`, the command line's way of saying it.
+fn from_command_line(text: &str) -> Option<String> {
+    let (word, value) = text.split_once(':')?;
+    let (value, depth) = value.split_once(',').map_or((value, None), |(value, depth)| (value, Some(depth)));
+    let number: f64 = value.trim().parse().ok()?;
+    match word {
+        "recursive" if depth.is_some() => {
+            let depth: u32 = depth?.trim().parse().ok()?;
+            Some(format!("write `antialias: {{recursive: {{threshold: {number}, max_depth: {depth}}}}}`"))
+        }
+        "grid" => Some(format!("write `antialias: {{grid: {number}}}`")),
+        "recursive" => Some(format!("write `antialias: {{recursive: {{threshold: {number}}}}}`")),
+        _ => None,
     }
 }
 

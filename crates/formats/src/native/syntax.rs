@@ -59,9 +59,11 @@ pub(super) fn explain(text: &str, at: usize, info: &str) -> Box<Complaint> {
     }
     let end = text[at..].chars().next().map_or(at, |c| at + c.len_utf8());
     let span = Span::new(at, end);
+    let line = text[text[..at].rfind('\n').map_or(0, |newline| newline + 1)..].lines().next().unwrap_or_default();
+    let glued = super::hints::glued(line.trim_start_matches([' ', '-'])).map(|(_, help)| help);
     let known = PLAIN_WORDS.iter().find(|(pattern, ..)| info.contains(pattern));
     Box::new(match known {
-        Some((_, message, help)) => Complaint::error(span, *message).help(*help),
+        Some((_, message, help)) => Complaint::error(span, *message).help(*help).maybe_help(glued),
         None => Complaint::error(span, format!("this is not YAML: {info}")),
     })
 }

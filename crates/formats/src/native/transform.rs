@@ -3,7 +3,7 @@
 use super::decode::{Decoder, Fields};
 use super::record::{FieldAbout, Record, fields, record, record_value};
 use super::suggest;
-use super::tree::{Node, NodeKind, shorten};
+use super::tree::{Entry, Node, NodeKind, shorten};
 use super::value::{Item, Value, number_text, numbers};
 use super::write::{FieldsOut, Out, Writer};
 use crate::diagnostics::Complaint;
@@ -157,7 +157,13 @@ fn rotate(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<TransformStep> {
         let axis = AXES.iter().find(|(name, _)| key.text() == Some(name))?;
         Some((axis.1, value))
     });
+    let is_long = |(key, _): &Entry| matches!(key.text(), Some("axis" | "angle"));
     match named {
+        None if !entries.iter().any(is_long) => {
+            let span = entries.first().map_or(node.span, |(key, _)| key.span);
+            let complaint = Complaint::error(span, "`rotate` takes one of `x`, `y` and `z`, or `axis` and `angle`");
+            cx.complain(complaint.help("for example `rotate: {y: 45}`, or `rotate: {axis: [1, 1, 0], angle: 45}`"))
+        }
         Some((axis, value)) if entries.len() == 1 => {
             f64::decode(value, cx).map(|degrees| TransformStep::Rotate { axis, degrees })
         }

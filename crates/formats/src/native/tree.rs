@@ -65,6 +65,18 @@ impl Node {
         }
     }
 
+    /// True for text in quotes.
+    pub(crate) fn is_quoted(&self) -> bool {
+        matches!(self.kind, NodeKind::Scalar { plain: false, .. })
+    }
+
+    /// True for `.inf`, `.nan` and other spellings of what is no number that we can use.
+    pub(crate) fn is_not_finite(&self) -> bool {
+        const WORDS: [&str; 5] = [".inf", ".nan", "inf", "nan", "infinity"];
+        let word = |text: &str| WORDS.iter().any(|word| text.eq_ignore_ascii_case(word));
+        self.text().is_some_and(|text| word(text.trim_start_matches(['-', '+'])))
+    }
+
     /// The key and value of this name, if it is a mapping that has them.
     pub(crate) fn get(&self, name: &str) -> Option<&Entry> {
         match &self.kind {
@@ -79,6 +91,7 @@ impl Node {
             return "nothing".to_owned();
         }
         match &self.kind {
+            NodeKind::Scalar { text, .. } if self.is_not_finite() => format!("`{}`", shorten(text)),
             NodeKind::Scalar { text, plain } if *plain && text.parse::<f64>().is_ok() => {
                 format!("the number {}", shorten(text))
             }

@@ -1,8 +1,10 @@
 //! What may stand in a field: how each type is read, written, described, and called in messages.
 
 use super::decode::Decoder;
+use super::hints;
 use super::tree::{Node, NodeKind};
 use super::write::{Out, Writer};
+use crate::diagnostics::Complaint;
 use durer_math::{DVec2, DVec3};
 use serde_json::{Value as Json, json};
 use std::rc::Rc;
@@ -47,27 +49,6 @@ pub(crate) fn number_out(debug: String) -> Out {
     })
 }
 
-/// Advice for text where a number should be.
-fn number_advice(node: &Node) -> Option<String> {
-    let text = node.text()?;
-    if matches!(text.to_ascii_lowercase().trim_start_matches(['-', '+']), ".inf" | ".nan" | "inf" | "nan" | "infinity")
-    {
-        return Some("numbers must be finite".to_owned());
-    }
-    let with_point = text.replacen(',', ".", 1);
-    if text.matches(',').count() == 1 && with_point.parse::<f64>().is_ok() {
-        return Some(format!("decimals are written with a point: `{}`", with_point.replace(' ', "")));
-    }
-    let start = text.trim_end_matches(|c: char| c.is_alphabetic() || c == '°' || c == '%' || c == ' ');
-    if start.len() < text.len() && start.parse::<f64>().is_ok() {
-        return Some(format!("write the number alone, without a unit: `{start}`"));
-    }
-    if text.parse::<f64>().is_ok() {
-        return Some("remove the quotes".to_owned());
-    }
-    text.contains(['*', '/', '(']).then(|| "scene files do not calculate: write the result".to_owned())
-}
-
 macro_rules! number {
     ($type:ty) => {
         impl Value for $type {
@@ -82,7 +63,8 @@ macro_rules! number {
                     return cx.expected::<Self>(node);
                 };
                 if !number.is_finite() {
-                    return cx.refuse(node, "this number is too large");
+                    let complaint = Complaint::error(node.span, "this number is too large");
+                    return cx.complain(complaint.help(format!("numbers go up to {:.1e}", <$type>::MAX)));
                 }
                 Some(number)
             }
@@ -93,7 +75,7 @@ macro_rules! number {
                 json!({ "type": "number" })
             }
             fn advice(node: &Node) -> Option<String> {
-                number_advice(node)
+                hints::number(node)
             }
         }
     };
@@ -113,13 +95,13 @@ impl Value for u32 {
         let Some(number) = number_text(node).and_then(|text| text.parse::<f64>().ok()) else {
             return cx.expected::<Self>(node);
         };
-        if number.fract() != 0.0 {
+        if number.is_finite() && number.fract() != 0.0 {
             return cx.expected::<Self>(node);
         }
-        if !(0.0..=f64::from(u32::MAX)).contains(&number) {
-            return cx
-                .refuse(node, if number < 0.0 { "this must not be negative" } else { "this number is too large" });
+        if number < 0.0 {
+            return cx.refuse(node, "this must not be negative: expected a whole number from 0 up");
         }
+        // What has a limit is refused by the check, which names it: so a larger number becomes the largest.
         Some(number as u32)
     }
     fn encode(&self, _: &Writer<'_>) -> Out {
@@ -129,7 +111,7 @@ impl Value for u32 {
         json!({ "type": "integer", "minimum": 0 })
     }
     fn advice(node: &Node) -> Option<String> {
-        number_advice(node)
+        hints::number(node)
     }
 }
 
@@ -157,6 +139,7 @@ impl Value for bool {
         match node.text()?.to_ascii_lowercase().as_str() {
             "yes" | "on" | "1" => Some("write `true`".to_owned()),
             "no" | "off" | "0" => Some("write `false`".to_owned()),
+            "true" | "false" if node.is_quoted() => Some("remove the quotes".to_owned()),
             _ => None,
         }
     }
@@ -330,7 +313,8 @@ impl<T: Item> Value for Vec<T> {
         match &node.kind {
             NodeKind::Mapping(_) => Some("begin each item with `- `".to_owned()),
             NodeKind::Scalar { .. } if node.is_null() => Some("write `[]` for none".to_owned()),
-            NodeKind::Scalar { .. } | NodeKind::Sequence(_) => None,
+            NodeKind::Scalar { .. } => Some("begin each item with `- `, or write `[…]` around them".to_owned()),
+            NodeKind::Sequence(_) => None,
         }
     }
 }

@@ -85,11 +85,19 @@ fn decode_error(error: &DecodeErrors, bytes: &[u8]) -> DecodeError {
     match error {
         DecodeErrors::ExhaustedData => DecodeError::Truncated,
         _ if !has_end(bytes) => DecodeError::Truncated,
-        DecodeErrors::Unsupported(what) => {
-            DecodeError::Unsupported { format: FileFormat::Jpeg, detail: format!("{what:?}") }
+        DecodeErrors::Unsupported(_) => {
+            let detail = "another coding than baseline or progressive Huffman".to_owned();
+            DecodeError::Unsupported { format: FileFormat::Jpeg, detail }
         }
         DecodeErrors::ZeroError => corrupt("there are no pixels".into()),
-        other => corrupt(format!("{other:?}")),
+        DecodeErrors::HuffmanDecode(_) | DecodeErrors::MCUError(_) => corrupt("the pixel data are damaged".into()),
+        DecodeErrors::DqtError(_) => corrupt("a quantization table is damaged".into()),
+        DecodeErrors::SosError(_) | DecodeErrors::SofError(_) => corrupt("a header is damaged".into()),
+        DecodeErrors::IllegalMagicBytes(_) => corrupt("it does not begin as a JPEG does".into()),
+        DecodeErrors::LargeDimensions(_) => corrupt("it is too large".into()),
+        DecodeErrors::Format(words) => corrupt(words.clone()),
+        DecodeErrors::FormatStatic(words) => corrupt((*words).to_owned()),
+        DecodeErrors::TooSmallOutput(..) | DecodeErrors::IoErrors(_) => corrupt("it is damaged".into()),
     }
 }
 

@@ -63,9 +63,29 @@ fn decode_error(error: DecodingError) -> DecodeError {
         DecodingError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => DecodeError::Truncated,
         DecodingError::LimitsExceeded => corrupt("it needs too much memory".into()),
         DecodingError::IoError(error) => corrupt(error.to_string()),
-        DecodingError::Format(error) => corrupt(error.to_string()),
-        DecodingError::Parameter(error) => corrupt(error.to_string()),
+        DecodingError::Format(error) => corrupt(in_plain_words(&error.to_string()).into()),
+        DecodingError::Parameter(_) => corrupt("its parts do not fit together".into()),
     }
+}
+
+/// The decoder's message begins with or contains this: what is wrong. Its own words show insides of the decoder.
+const PLAIN_WORDS: &[(&str, &str)] = &[
+    ("CRC error", "a checksum does not match"),
+    ("Invalid PNG signature", "it does not begin as a PNG does"),
+    ("Corrupt deflate stream", "the pixel data are damaged"),
+    ("does not have enough data", "there are fewer pixels than its header says"),
+    ("IDAT or fdAT chunk is missing", "there are no pixels in it"),
+    ("palette", "the palette is missing or too short"),
+    ("Invalid image dimensions", "its size is not valid"),
+    ("Invalid color", "its header is damaged"),
+    ("Invalid bit depth", "its header is damaged"),
+    ("method", "it is compressed in an unknown way"),
+    ("Unrecognized critical chunk", "it needs a part of the format that is not known"),
+    ("before IHDR", "its header is missing"),
+];
+
+fn in_plain_words(message: &str) -> &'static str {
+    PLAIN_WORDS.iter().find(|(part, _)| message.contains(part)).map_or("a damaged chunk", |(_, words)| words)
 }
 
 pub(crate) fn encode(image: &Image, options: &EncodeOptions) -> Result<Vec<u8>, EncodeError> {
@@ -120,4 +140,24 @@ fn samples(image: &Image, options: &EncodeOptions) -> Vec<u8> {
 
 fn encode_error(error: &EncodingError) -> EncodeError {
     EncodeError::Failed { format: FileFormat::Png, detail: error.to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn damage_is_told_in_plain_words() {
+        let image = Image { width: 20, height: 20, pixels: vec![durer_math::Rgb::WHITE; 400] };
+        let good = encode(&image, &EncodeOptions::default()).unwrap();
+        assert!(decode(&good, &DecodeLimits::default()).is_ok());
+        for at in 0..good.len() {
+            let mut bad = good.clone();
+            bad[at] ^= 0x41;
+            if let Err(error) = decode(&bad, &DecodeLimits::default()) {
+                let text = error.to_string();
+                assert!(!text.contains(['{', '"', '(']) && !text.contains("ChunkType"), "{at}: {text}");
+            }
+        }
+    }
 }

@@ -188,11 +188,13 @@ fn patterns_asked(texture: &Texture, asked: &[u64]) -> u64 {
 fn made_of_itself(c: &mut Checker<'_>, id: usize, part: usize) {
     let texture = &c.scene.textures[id];
     let at = texture.pattern.colors().iter().position(|paint| *paint == Paint::Texture(TextureId(part as u32)));
-    let name = c.scene.textures[part].name.as_deref().unwrap_or("a texture");
+    let name = c.scene.textures[part].name.as_ref().map_or("a texture".to_owned(), |name| format!("`{name}`"));
     c.at(Step::Texture(TextureId(id as u32)), |c| {
         c.field(texture.pattern.word(), |c| {
             c.field("colors", |c| {
-                c.at(Step::Index(at.unwrap_or(0)), |c| c.problem(format!("{name} is made of itself")));
+                let help = "a texture's colors may not lead back to it";
+                let message = format!("{name} is made of itself");
+                c.at(Step::Index(at.unwrap_or(0)), |c| c.problem_with_help(message, help));
             });
         });
     });

@@ -1,24 +1,29 @@
-//! Ctrl-C: the first one asks the rendering to stop, the second one ends the program.
+//! Ctrl-C, SIGTERM and SIGHUP: the first one asks the rendering to stop, the second one ends the program.
 
 use crate::{exit, output};
-use durer::PictureFile;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, OnceLock};
 
-/// Watches for Ctrl-C, and keeps the file that is to be written, so that none is left behind if the program must end.
+/// Watches for Ctrl-C, and knows the temporary file, so that none is left behind if the program must end at once.
+///
+/// It knows the name only: what it has is never dropped, for the system may call it until the end.
 pub(super) struct Interrupt {
     stop: Arc<AtomicBool>,
-    file: Arc<Mutex<Option<PictureFile>>>,
+    temporary: Arc<OnceLock<PathBuf>>,
 }
 
 impl Interrupt {
     /// Begins to watch.
-    pub(super) fn new(file: PictureFile) -> Interrupt {
-        let interrupt = Interrupt { stop: Arc::default(), file: Arc::new(Mutex::new(Some(file))) };
-        let (stop, file) = (Arc::clone(&interrupt.stop), Arc::clone(&interrupt.file));
+    pub(super) fn new() -> Interrupt {
+        let interrupt = Interrupt { stop: Arc::default(), temporary: Arc::default() };
+        let (stop, temporary) = (Arc::clone(&interrupt.stop), Arc::clone(&interrupt.temporary));
         let pressed = move || {
             if stop.swap(true, Ordering::Relaxed) {
-                drop(take(&file));
+                if let Some(temporary) = temporary.get() {
+                    // It may have got its name just now.
+                    let _ = std::fs::remove_file(temporary);
+                }
                 exit::at_once();
             }
         };
@@ -28,17 +33,14 @@ impl Interrupt {
         interrupt
     }
 
+    /// The file that the second Ctrl-C removes.
+    pub(super) fn removes(&self, temporary: &Path) {
+        // There is but one.
+        let _ = self.temporary.set(temporary.to_owned());
+    }
+
     /// True from the first Ctrl-C on.
     pub(super) fn stop_flag(&self) -> &AtomicBool {
         &self.stop
     }
-
-    /// Gives the file, the first time.
-    pub(super) fn take_file(&self) -> Option<PictureFile> {
-        take(&self.file)
-    }
-}
-
-fn take(file: &Mutex<Option<PictureFile>>) -> Option<PictureFile> {
-    file.lock().unwrap_or_else(PoisonError::into_inner).take()
 }

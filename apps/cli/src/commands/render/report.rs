@@ -6,6 +6,7 @@ use crate::output;
 use durer::imaging::FileFormat;
 use durer::{Film, RayCounts, Region};
 use serde_json::json;
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 /// All that is known about a render.
@@ -53,6 +54,24 @@ impl Report {
         Report { seconds, ..self }
     }
 
+    /// What the picture is called if it is not complete: `room.partial.png` in place of `room.png`.
+    pub(super) fn name_of_part(&self) -> OsString {
+        let mut name = self.path.file_stem().unwrap_or_default().to_owned();
+        name.push(".partial.");
+        name.push(self.path.extension().unwrap_or_default());
+        name
+    }
+
+    /// The file that is written: that of the picture, or of a part.
+    fn written_path(&self) -> PathBuf {
+        if self.is_complete() { self.path.clone() } else { self.path.with_file_name(self.name_of_part()) }
+    }
+
+    /// What an interruption means for the picture.
+    fn fate(&self) -> &'static str {
+        if self.path.exists() { "is as it was" } else { "is not written" }
+    }
+
     /// The file is written.
     pub(super) fn written(&mut self, bytes: usize, seconds: f64) {
         self.bytes = bytes;
@@ -84,7 +103,7 @@ impl Report {
         output::note(&format!(
             "{}: {width} × {height} pixels, {}; {} eye, {} reflected, {} transmitted, {} shadow rays{cut_off}, {:.2} Mrays/s; \
              load {load:.3} s, build {build:.3} s, render {render:.3} s",
-            self.path.display(),
+            self.written_path().display(),
             bytes(self.bytes as u64),
             thousands(eye),
             thousands(reflected),
@@ -109,17 +128,20 @@ impl Report {
     pub(super) fn tell_interrupted(&self) {
         let share = 100.0 * self.finished as f64 / self.pixels() as f64;
         output::note(&format!(
-            "interrupted: {} has {} of {} pixels ({} %), the others are black",
-            self.path.display(),
+            "interrupted: {} has {} of {} pixels ({} %), the others are black; {} {}",
+            self.written_path().display(),
             thousands(self.finished),
             thousands(self.pixels()),
             short((share * 10.0).floor() / 10.0),
+            self.path.display(),
+            self.fate(),
         ));
     }
 
     /// Says that there is no picture.
     pub(super) fn tell_nothing(&self) {
-        output::note(&format!("interrupted before any tile was finished: {} is not written", self.path.display()));
+        let path = self.path.display();
+        output::note(&format!("interrupted before any tile was finished: {path} {}", self.fate()));
     }
 
     /// Prints everything for programs.
@@ -129,7 +151,7 @@ impl Report {
         let Seconds { load, build, render, write } = self.seconds;
         output::print_json(&json!({
             "scene": self.scene.to_string_lossy(),
-            "output": self.path.to_string_lossy(),
+            "output": self.written_path().to_string_lossy(),
             "format": self.format.name().to_lowercase(),
             "bytes": self.bytes,
             "region": { "x": x, "y": y, "width": width, "height": height },
