@@ -7,7 +7,7 @@ use crate::output;
 use clap::Args;
 use durer::imaging::Transfer;
 use durer::math::DVec3;
-use durer::scene::{Antialias, LightKind, Object, ObjectKind, Pattern, Picture};
+use durer::scene::{Antialias, LightKind, Object, ObjectKind, Picture};
 use durer::{Bounds, Scene};
 use serde_json::{Value, json};
 
@@ -92,7 +92,7 @@ impl<'s> Facts<'s> {
             scene,
             shapes,
             groups,
-            textures: Tally::of(scene.textures.iter().map(|texture| pattern_word(&texture.pattern))),
+            textures: Tally::of(scene.textures.iter().map(|texture| texture.pattern.word())),
             lights: Tally::of(scene.lights.iter().map(|light| light_word(light.kind))),
             bounds: Some(bounds).filter(|bounds| !bounds.is_empty()),
             memory,
@@ -205,18 +205,5 @@ fn light_word(kind: LightKind) -> &'static str {
         LightKind::Point { .. } => "point",
         LightKind::Spot { .. } => "spot",
         LightKind::Directional { .. } => "directional",
-    }
-}
-
-fn pattern_word(pattern: &Pattern) -> &'static str {
-    match pattern {
-        Pattern::Checker { .. } => "checker",
-        Pattern::Stripes { .. } => "stripes",
-        Pattern::Rings { .. } => "rings",
-        Pattern::Gradient { .. } => "gradient",
-        Pattern::Image(_) => "image",
-        Pattern::Noise { .. } => "noise",
-        Pattern::Marble { .. } => "marble",
-        Pattern::Wood { .. } => "wood",
     }
 }
