@@ -38,6 +38,11 @@ fn add(objects: &[Object], within: &str, labels: &mut Vec<ShapeLabel>) {
                 labels.push(ShapeLabel { place, name: object.name.clone(), kind: shape.word() });
             }
             ObjectKind::Group(children) => add(children, &format!("{place}."), labels),
+            ObjectKind::Mesh(_)
+            | ObjectKind::Particles(_)
+            | ObjectKind::Instances(_)
+            | ObjectKind::Import(_)
+            | ObjectKind::Solid(_) => todo!(),
         }
     }
 }

@@ -6,6 +6,7 @@
 
 mod assets;
 mod diagnostics;
+mod models;
 mod native;
 
 pub use assets::{AssetError, Assets, FolderAssets, NoAssets};

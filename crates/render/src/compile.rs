@@ -147,6 +147,11 @@ impl Compiler {
                     self.add(child, &world_from_object, material);
                 }
             }
+            ObjectKind::Mesh(_)
+            | ObjectKind::Particles(_)
+            | ObjectKind::Instances(_)
+            | ObjectKind::Import(_)
+            | ObjectKind::Solid(_) => todo!(),
             ObjectKind::Shape(shape) => {
                 let material = material.map_or(self.materials.len() as u32 - 1, |id| id.0);
                 let mut primitive = place(shape, &world_from_object);

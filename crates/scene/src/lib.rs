@@ -5,21 +5,27 @@
 
 mod camera;
 mod check;
+mod data;
 mod light;
 mod material;
+mod mesh;
 mod object;
+mod particles;
 mod settings;
 mod texture;
 mod transform;
 
 pub use camera::{Camera, Projection};
 pub use check::{CheckedScene, Place, Problem, Step};
+pub use data::{Data, DataFile, Instances, Sizes};
 pub use light::{Falloff, Light, LightKind};
 pub use material::{Attenuation, Material};
-pub use object::{Object, ObjectKind, Shape};
+pub use mesh::{Import, Mesh, MeshData, MeshNormals, MeshPart};
+pub use object::{Object, ObjectKind, Operation, Shape, Solid};
+pub use particles::{ParticleKind, Particles};
 pub use settings::{Antialias, Background, Fog, Picture, RenderSettings};
 pub use texture::{
-    Encoding, Filter, ImageAsset, ImageId, ImageTexture, Mapping, MaterialId, Paint, Pattern, Space, Texture,
+    Channels, Encoding, Filter, ImageAsset, ImageId, ImageTexture, Mapping, MaterialId, Paint, Pattern, Space, Texture,
     TextureId, Wrap,
 };
 pub use transform::{Transform, TransformStep};

@@ -9,7 +9,7 @@ use durer_math::Rgb;
 /// intensity I, its direction l, and r the reflection of l about the normal n, the surface shows
 ///
 /// `shade = ambient·A·C + Σ V·I·(diffuse·C·max(0, n·l) + specular·max(0, r·v)^shininess)`
-/// `color = (1 - transparency)·shade + transparency·behind + reflection·reflected`
+/// `color = emission + (1 - transparency)·shade + transparency·behind + reflection·reflected`
 ///
 /// with the highlight only where n·l > 0, and n turned to the side that the ray comes from.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +38,10 @@ pub struct Material {
     pub fresnel: bool,
     /// Colour taken on inside of closed shapes, by distance (Beer–Lambert).
     pub attenuation: Option<Attenuation>,
+    /// Light that the surface gives off by itself.
+    pub emission: Rgb,
+    /// How much of the surface is there: white where it is whole, black where it has a hole.
+    pub opacity: Paint,
 }
 
 /// White light that went `distance` through the inside has `color`: transmittance is `color^(d / distance)`.
@@ -64,6 +68,8 @@ impl Default for Material {
             ior: None,
             fresnel: false,
             attenuation: None,
+            emission: Rgb::BLACK,
+            opacity: Paint::Color(Rgb::WHITE),
         }
     }
 }

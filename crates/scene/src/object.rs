@@ -1,6 +1,6 @@
 //! Objects: shapes and groups of them.
 
-use crate::{MaterialId, Transform};
+use crate::{Import, Instances, MaterialId, Mesh, Particles, Transform};
 use durer_math::{DVec2, DVec3};
 
 /// A shape or a group, placed in its parent's space.
@@ -23,6 +23,65 @@ pub enum ObjectKind {
     Shape(Shape),
     /// Objects that move together.
     Group(Vec<Object>),
+    /// A triangle mesh.
+    Mesh(Mesh),
+    /// Simple shapes by the million.
+    Particles(Particles),
+    /// Copies of objects.
+    Instances(Instances),
+    /// What a file of another kind holds.
+    Import(Import),
+    /// Closed shapes combined to one.
+    Solid(Solid),
+}
+
+/// Closed objects combined to one solid: constructive solid geometry.
+///
+/// Each operand is a closed shape, a closed mesh, another solid, or a group of such, which stands for their union. A
+/// surface keeps the material of the operand that it comes from; what is inside is that of the solid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solid {
+    /// How the operands are combined.
+    pub operation: Operation,
+    /// Two or more objects (one will do).
+    pub operands: Vec<Object>,
+}
+
+/// The set operations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operation {
+    /// What is in any of the operands.
+    Union,
+    /// What is in all of the operands.
+    Intersection,
+    /// What is in the first operand but in none of the others.
+    Difference,
+}
+
+impl Operation {
+    /// The word for it in scene files and messages.
+    pub fn word(self) -> &'static str {
+        match self {
+            Operation::Union => "union",
+            Operation::Intersection => "intersection",
+            Operation::Difference => "difference",
+        }
+    }
+}
+
+impl ObjectKind {
+    /// The word for this kind in scene files and messages.
+    pub fn word(&self) -> &'static str {
+        match self {
+            ObjectKind::Shape(shape) => shape.word(),
+            ObjectKind::Group(_) => "group",
+            ObjectKind::Mesh(_) => "mesh",
+            ObjectKind::Particles(particles) => particles.kind.word(),
+            ObjectKind::Instances(_) => "instances",
+            ObjectKind::Import(_) => "import",
+            ObjectKind::Solid(solid) => solid.operation.word(),
+        }
+    }
 }
 
 /// The exact shapes, in the object's own space. Closed ones have an inside.

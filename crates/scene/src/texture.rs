@@ -149,6 +149,20 @@ pub struct ImageTexture {
     pub filter: Filter,
     /// What the file's numbers mean.
     pub encoding: Encoding,
+    /// Which of its channels are shown.
+    pub channels: Channels,
+    /// Multiplies what the file says.
+    pub tint: Rgb,
+}
+
+/// The channels of an image that are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Channels {
+    /// Its colours.
+    #[default]
+    Color,
+    /// Its alpha channel, as gray from 0 to 1; 1 if it has none.
+    Alpha,
 }
 
 /// How a point becomes a place (s, t) on an image.

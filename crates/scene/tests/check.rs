@@ -54,6 +54,8 @@ fn ids_must_be_in_range() {
         wrap: Wrap::Repeat,
         filter: Filter::Nearest,
         encoding: Encoding::Srgb,
+        channels: Channels::Color,
+        tint: Rgb::WHITE,
     };
     let textures = [pattern, Pattern::Image(image)];
     let texture_of = |pattern| Texture { name: None, transform: Transform::default(), pattern };

@@ -156,6 +156,11 @@ fn count_objects(objects: &[Object], shapes: &mut Tally, groups: &mut usize) {
                 *groups += 1;
                 count_objects(children, shapes, groups);
             }
+            ObjectKind::Mesh(_)
+            | ObjectKind::Particles(_)
+            | ObjectKind::Instances(_)
+            | ObjectKind::Import(_)
+            | ObjectKind::Solid(_) => todo!(),
         }
     }
 }

@@ -25,6 +25,8 @@ pub(crate) struct Surface {
     ior: Option<f64>,
     fresnel: bool,
     attenuation: Option<Attenuation>,
+    emission: Rgb,
+    opacity: Paint,
 }
 
 record!(Surface {
@@ -38,6 +40,8 @@ record!(Surface {
     ior: Option<f64> = None => "Index of refraction of the inside (water 1.33, glass 1.5). Without it, and through shapes that have no inside, light goes straight.";
     fresnel: bool = false => "Divides the light between refraction and reflection by Fresnel's equations.";
     attenuation: Option<Attenuation> = None => "Color taken on inside of closed shapes, by distance.";
+    emission: Rgb = Rgb::BLACK => "Light that the surface gives off by itself; a number or a color.";
+    opacity: Paint = Material::default().opacity => "How much of the surface is there, from black for holes to white: a number, or a texture.";
 });
 
 record!(Attenuation {
@@ -59,6 +63,8 @@ impl From<Surface> for Material {
             ior,
             fresnel,
             attenuation,
+            emission,
+            opacity,
         } = surface;
         let name = None;
         Material {
@@ -73,6 +79,8 @@ impl From<Surface> for Material {
             ior,
             fresnel,
             attenuation,
+            emission,
+            opacity,
         }
     }
 }
@@ -91,8 +99,23 @@ impl From<&Material> for Surface {
             ior,
             fresnel,
             attenuation,
+            emission,
+            opacity,
         } = *material;
-        Surface { color, ambient, diffuse, specular, shininess, reflection, transparency, ior, fresnel, attenuation }
+        Surface {
+            color,
+            ambient,
+            diffuse,
+            specular,
+            shininess,
+            reflection,
+            transparency,
+            ior,
+            fresnel,
+            attenuation,
+            emission,
+            opacity,
+        }
     }
 }
 

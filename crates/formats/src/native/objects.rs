@@ -145,6 +145,11 @@ impl Value for Object {
                 out.required("objects", objects);
                 out.into_kind("group")
             }
+            ObjectKind::Mesh(_)
+            | ObjectKind::Particles(_)
+            | ObjectKind::Instances(_)
+            | ObjectKind::Import(_)
+            | ObjectKind::Solid(_) => todo!(),
         }
     }
     fn schema() -> Json {

@@ -6,7 +6,9 @@ use super::tree::{Node, NodeKind};
 use super::value::Value;
 use super::write::{FieldsOut, Out, Writer};
 use durer_math::{DVec3, Rgb};
-use durer_scene::{Encoding, Filter, ImageId, ImageTexture, Mapping, Paint, Pattern, Space, Texture, Transform, Wrap};
+use durer_scene::{
+    Channels, Encoding, Filter, ImageId, ImageTexture, Mapping, Paint, Pattern, Space, Texture, Transform, Wrap,
+};
 use serde_json::{Value as Json, json};
 use std::rc::Rc;
 
@@ -83,6 +85,8 @@ record!(ImageTexture {
     wrap: Wrap = Wrap::Repeat => "What is beyond the edges of the image.";
     filter: Filter = Filter::Bilinear => "What is between the centers of pixels.";
     encoding: Encoding = Encoding::Srgb => "What the numbers in the file mean.";
+    channels: Channels = Channels::Color => "Which of its channels are shown.";
+    tint: Rgb = Rgb::WHITE => "Multiplies what the file says.";
 });
 
 choice! { Mapping, "mapping";
@@ -120,6 +124,12 @@ choice! { Encoding, "encoding";
     Linear "linear": "Linear light, as in measured data.", example "encoding: linear", {}
 }
 choice_value!(Encoding, Encoding::Srgb);
+
+choice! { Channels, "channels";
+    Color "color": "Its colors.", example "channels: color", {}
+    Alpha "alpha": "Its alpha channel, as gray.", example "channels: alpha", {}
+}
+choice_value!(Channels, Channels::Color);
 
 /// The field that all textures have.
 pub(crate) struct Placing {

@@ -74,7 +74,7 @@ fn around_y(p: DVec3) -> f64 {
 mod tests {
     use super::*;
     use durer_imaging::Texels as Stored;
-    use durer_scene::{Encoding, ImageId};
+    use durer_scene::{Channels, Encoding, ImageId};
 
     const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror];
 
@@ -84,7 +84,15 @@ mod tests {
         let pixel = |i: u32| [(i % width) as f32, (height - 1 - i / width) as f32, 0.0];
         let texels = Stored::F32((0..width * height).map(pixel).collect());
         let bitmap = Arc::new(Bitmap { width, height, texels, alpha_dropped: false });
-        let texture = ImageTexture { image: ImageId(0), mapping, wrap, filter, encoding: Encoding::Linear };
+        let texture = ImageTexture {
+            image: ImageId(0),
+            mapping,
+            wrap,
+            filter,
+            encoding: Encoding::Linear,
+            channels: Channels::Color,
+            tint: Rgb::WHITE,
+        };
         Image::new(&texture, &bitmap, &mut Tables::default())
     }
 
@@ -151,6 +159,8 @@ mod tests {
             wrap: Wrap::Clamp,
             filter: Filter::Bilinear,
             encoding: Encoding::Srgb,
+            channels: Channels::Color,
+            tint: Rgb::WHITE,
         };
         let color = Image::new(&texture, &bitmap, &mut Tables::default()).color(DVec3::new(0.5, 0.5, 0.0));
         assert!((color.r - 0.5).abs() < 1e-6, "{color:?}");

@@ -4,7 +4,7 @@ use super::*;
 use durer_imaging::{Bitmap, Texels};
 use durer_math::rotation;
 use durer_scene::{
-    Encoding, Filter, ImageAsset, ImageId, ImageTexture, Pattern as Described, Texture as DescribedTexture,
+    Channels, Encoding, Filter, ImageAsset, ImageId, ImageTexture, Pattern as Described, Texture as DescribedTexture,
     TransformStep, Wrap,
 };
 use std::cell::Cell;
@@ -156,6 +156,8 @@ fn an_image_on_uv_is_placed_by_its_transform() {
             wrap: Wrap::Repeat,
             filter: Filter::Nearest,
             encoding: Encoding::Linear,
+            channels: Channels::Color,
+            tint: Rgb::WHITE,
         })
     };
     let half = TransformStep::Scale(DVec3::splat(0.5));

@@ -20,11 +20,7 @@ fn all(c: &mut Checker<'_>, objects: &[Object], outer: DAffine3, depth: usize) {
 }
 
 fn object(c: &mut Checker<'_>, object: &Object, outer: DAffine3, depth: usize) {
-    let word = match &object.kind {
-        ObjectKind::Shape(shape) => shape.word(),
-        ObjectKind::Group(_) => "group",
-    };
-    c.field(word, |c| {
+    c.field(object.kind.word(), |c| {
         if depth > DEEPEST {
             c.problem(format!("groups may nest at most {DEEPEST} deep"));
             return;
@@ -36,6 +32,11 @@ fn object(c: &mut Checker<'_>, object: &Object, outer: DAffine3, depth: usize) {
         match &object.kind {
             ObjectKind::Shape(shape) => self::shape(c, shape),
             ObjectKind::Group(members) => c.field("objects", |c| all(c, members, world_from_object, depth + 1)),
+            ObjectKind::Mesh(_)
+            | ObjectKind::Particles(_)
+            | ObjectKind::Instances(_)
+            | ObjectKind::Import(_)
+            | ObjectKind::Solid(_) => todo!(),
         }
     });
 }
