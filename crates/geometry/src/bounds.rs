@@ -1,5 +1,6 @@
 //! Axis-aligned boxes that bound things.
 
+use crate::simd::boxes::Box32;
 use durer_math::{DAffine3, DVec3};
 
 /// An axis-aligned box, from `min` to `max`; empty if `min > max` in some coordinate.
@@ -9,6 +10,13 @@ pub struct Bounds {
     pub min: DVec3,
     /// Greatest coordinates.
     pub max: DVec3,
+}
+
+impl From<Box32> for Bounds {
+    fn from(narrow: Box32) -> Bounds {
+        let wide = |corner: [f32; 3]| DVec3::from(corner.map(f64::from));
+        Bounds { min: wide(narrow.min()), max: wide(narrow.max()) }
+    }
 }
 
 impl Bounds {

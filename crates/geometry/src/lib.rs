@@ -13,7 +13,9 @@ mod vantage;
 mod world;
 
 pub use bounds::Bounds;
+pub use bvh::traverse::Work;
 pub use primitive::{Primitive, Surface};
 pub use ray::{Crossing, Ray};
+pub use shapes::mesh::{Mesh, MeshSource};
 pub use vantage::Vantage;
 pub use world::{Hit, World};

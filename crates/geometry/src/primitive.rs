@@ -1,14 +1,15 @@
 //! A shape placed in the world, and the points on it from which new rays may start.
 
 use crate::shapes::{
-    Shape, cone::Cone, cuboid::Cuboid, cylinder::Cylinder, disc::Disc, plane::Plane, rectangle::Rectangle,
+    Shape, cone::Cone, cuboid::Cuboid, cylinder::Cylinder, disc::Disc, mesh::Mesh, plane::Plane, rectangle::Rectangle,
     sphere::Sphere, torus::Torus, triangle::Triangle,
 };
-use crate::{Bounds, Crossing, Ray};
+use crate::{Bounds, Crossing, Ray, Work};
 use durer_math::{DAffine3, DMat3, DVec2, DVec3, rotation_between};
+use std::sync::Arc;
 
 /// A shape in its canonical space. To add one, see CONTRIBUTING.md.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum Kind {
     Plane(Plane),
     Sphere(Sphere),
@@ -19,6 +20,7 @@ enum Kind {
     Rectangle(Rectangle),
     Triangle(Triangle),
     Torus(Torus),
+    Mesh(Arc<Mesh>),
 }
 
 /// Evaluates an expression for whatever shape it is: a call of a method of [`Shape`] on whatever shape it is.
@@ -34,12 +36,16 @@ macro_rules! each_kind {
             Kind::Rectangle($shape) => $call,
             Kind::Triangle($shape) => $call,
             Kind::Torus($shape) => $call,
+            Kind::Mesh(mesh) => {
+                let $shape = &**mesh;
+                $call
+            }
         }
     };
 }
 
 /// A shape placed in the world by an affine map, which may scale, shear and mirror it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Primitive {
     kind: Kind,
     /// A bit for each class of rays that sees it; a query names the classes that it asks for.
@@ -137,6 +143,11 @@ impl Primitive {
         Primitive::place(Kind::Torus(torus), &(*world_from_object * frame))
     }
 
+    /// A triangle mesh whose positions are relative to `origin`. Those who share a mesh share its tree.
+    pub fn mesh(mesh: Arc<Mesh>, origin: DVec3, world_from_object: &DAffine3) -> Primitive {
+        Primitive::place(Kind::Mesh(mesh), &(*world_from_object * DAffine3::from_translation(origin)))
+    }
+
     fn place(kind: Kind, world_from_shape: &DAffine3) -> Primitive {
         let world = world_from_shape.matrix3;
         // One step of Newton's iteration: cofactors alone lose digits where a map stretches unevenly.
@@ -149,7 +160,8 @@ impl Primitive {
             | Kind::Cylinder(_)
             | Kind::Cone(_)
             | Kind::Triangle(_)
-            | Kind::Torus(_) => None,
+            | Kind::Torus(_)
+            | Kind::Mesh(_) => None,
         };
         Primitive {
             flat,
@@ -185,7 +197,8 @@ impl Primitive {
             | Kind::Disc(_)
             | Kind::Rectangle(_)
             | Kind::Triangle(_)
-            | Kind::Torus(_) => None,
+            | Kind::Torus(_)
+            | Kind::Mesh(_) => None,
         }
     }
 
@@ -194,6 +207,17 @@ impl Primitive {
     pub fn intersect(&self, ray: &Ray, t_max: f64) -> Option<Crossing> {
         // Mapped in each arm anew, so that the compiler drops the coordinates that a flat shape does not look at.
         each_kind!(&self.kind, shape => shape.intersect(&self.ray_in_shape(ray), t_max))
+    }
+
+    /// As [`Primitive::intersect`], adding what it took.
+    pub fn intersect_watched(&self, ray: &Ray, t_max: f64, work: &mut Work) -> Option<Crossing> {
+        each_kind!(&self.kind, shape => shape.intersect_watched(&self.ray_in_shape(ray), t_max, work))
+    }
+
+    /// True if there is a crossing with 0 < t < `t_max`.
+    #[inline]
+    pub fn meets(&self, ray: &Ray, t_max: f64) -> bool {
+        each_kind!(&self.kind, shape => shape.meets(&self.ray_in_shape(ray), t_max))
     }
 
     /// How often the ray crosses it with 0 < t < `t_max`; no shape is crossed more than four times.
@@ -231,7 +255,7 @@ impl Primitive {
         // of half an ulp each).
         let [world_norm, shape_norm] = self.norms;
         let reach = world_norm * largest(snapped) + largest(point) + largest(self.origin);
-        let doubt = shape.rounding() + self.residual * largest(snapped) + 16.0 * f64::EPSILON * shape_norm * reach;
+        let doubt = shape.rounding(part) + self.residual * largest(snapped) + 16.0 * f64::EPSILON * shape_norm * reach;
         // A step of s along the world's unit normal is one of s · stretch along the canonical one.
         Surface { point, normal, offset: 4.0 * doubt * per_stretch }
     }

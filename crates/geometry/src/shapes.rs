@@ -8,6 +8,7 @@ pub(crate) mod cone;
 pub(crate) mod cuboid;
 pub(crate) mod cylinder;
 pub(crate) mod disc;
+pub(crate) mod mesh;
 pub(crate) mod plane;
 pub(crate) mod rectangle;
 mod span;
@@ -17,6 +18,7 @@ mod testing;
 pub(crate) mod torus;
 pub(crate) mod triangle;
 
+use crate::bvh::traverse::Work;
 use crate::{Bounds, Crossing, Ray};
 use durer_math::{DVec2, DVec3};
 
@@ -32,6 +34,17 @@ pub(crate) trait Shape {
     /// leave no gap: closed shapes intersect spans, not parts one by one.
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<Crossing>;
 
+    /// As [`Shape::intersect`], adding what it took.
+    fn intersect_watched(&self, ray: &Ray, t_max: f64, work: &mut Work) -> Option<Crossing> {
+        work.primitives += 1;
+        self.intersect(ray, t_max)
+    }
+
+    /// True if there is a crossing with 0 < t < `t_max`.
+    fn meets(&self, ray: &Ray, t_max: f64) -> bool {
+        self.intersect(ray, t_max).is_some()
+    }
+
     /// Puts a point that is on `part` but for rounding back on it, as near as numbers allow, and gives the outward unit
     /// normal there.
     fn surface(&self, point: DVec3, part: u32) -> (DVec3, DVec3);
@@ -42,6 +55,7 @@ pub(crate) trait Shape {
     /// True for a point inside; always false for a shape without an inside.
     fn contains(&self, point: DVec3) -> bool;
 
-    /// How far from the surface, along its normal, [`Shape::intersect`] may see a point that [`Shape::surface`] gave.
-    fn rounding(&self) -> f64;
+    /// How far from the surface, along its normal, [`Shape::intersect`] may see a point that [`Shape::surface`] gave for
+    /// `part`.
+    fn rounding(&self, part: u32) -> f64;
 }

@@ -3,5 +3,7 @@
 //! Every function here is written once, over `fearless_simd`'s vectors; the instruction set is chosen once per query.
 //! Fused multiply-add is never used, so all sets give the same bits.
 
+pub(crate) mod bins;
 pub(crate) mod boxes;
 pub(crate) mod planes;
+pub(crate) mod triangles;

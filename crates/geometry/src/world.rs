@@ -1,6 +1,8 @@
 //! All primitives of a scene, ready for rays.
 
-use crate::bvh::{Bvh, build::build};
+use crate::bvh::Bvh;
+use crate::bvh::build::{Item, Leaves, build};
+use crate::simd::boxes::Box32;
 use crate::simd::planes::Planes;
 use crate::vantage::{Boxed, Flat, MOST_BOUNDED, MOST_PLANES, Vantage};
 use crate::{Bounds, Crossing, Primitive, Ray, Surface};
@@ -42,6 +44,10 @@ impl World {
         let is_plane = |&id: &u32| primitives[id as usize].as_plane().is_some();
         let (plane_ids, bounded_ids): (Vec<u32>, Vec<u32>) = ids.partition(is_plane);
         let boxes: Vec<Bounds> = bounded_ids.iter().map(|&id| primitives[id as usize].bounds()).collect();
+        let numbered = bounded_ids.iter().zip(&boxes);
+        let mut items: Vec<Item> = numbered.map(|(&id, bounds)| Item::new(id, Box32::around(bounds))).collect();
+        let bvh = build(&mut items, Leaves { block: 1, most: 1 }, level);
+        let bounded_ids = items.iter().map(Item::number).collect();
         let mut planes = vec![Planes::EMPTY; plane_ids.len().div_ceil(4)];
         for (i, &id) in plane_ids.iter().enumerate() {
             if let Some([normal, point]) = primitives[id as usize].as_plane() {
@@ -49,7 +55,7 @@ impl World {
             }
         }
         let bounds = boxes.iter().copied().fold(Bounds::EMPTY, Bounds::union);
-        World { bvh: build(&boxes), planes, bounded_ids, bounds, level, primitives }
+        World { bvh, planes, bounded_ids, bounds, level, primitives }
     }
 
     /// The primitives, in the order they were given.
@@ -93,7 +99,7 @@ impl World {
     pub fn closest_hit(&self, ray: &Ray, t_max: f64, mask: u32, origin: Option<&Vantage>) -> Option<Hit> {
         match origin.and_then(|vantage| vantage.candidates(ray.direction)) {
             Some(ids) => {
-                let mut best = Best { hit: None, reach: t_max };
+                let mut best = Best::below(t_max);
                 for &id in ids {
                     self.offer(&mut best, id, ray, mask);
                 }
@@ -121,7 +127,7 @@ impl World {
 
     #[inline(always)]
     fn closest_hit_with<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, mask: u32) -> Option<Hit> {
-        let mut best = Best { hit: None, reach: t_max };
+        let mut best = Best::below(t_max);
         for planes in &self.planes {
             let (mut hits, t) = planes.hits(simd, ray, best.reach);
             while hits != 0 {
@@ -133,9 +139,15 @@ impl World {
                 }
             }
         }
+        if let [id] = self.bounded_ids[..] {
+            self.offer(&mut best, id, ray, mask);
+            return best.hit;
+        }
         let reach = best.reach;
-        self.bvh.nearest(simd, ray, reach, |thing| {
-            self.offer(&mut best, self.bounded_ids[thing as usize], ray, mask);
+        self.bvh.nearest(simd, ray, reach, &mut (), |things, ()| {
+            for &id in &self.bounded_ids[things] {
+                self.offer(&mut best, id, ray, mask);
+            }
             best.reach
         });
         best.hit
@@ -158,7 +170,7 @@ impl World {
             Some(ids) => {
                 for &id in ids {
                     let primitive = &self.primitives[id as usize];
-                    if primitive.intersect(ray, t_max).is_some() && visit(id, primitive) {
+                    if primitive.meets(ray, t_max) && visit(id, primitive) {
                         return true;
                     }
                 }
@@ -172,7 +184,7 @@ impl World {
     fn any_hit_in_tree(&self, ray: &Ray, t_max: f64, visit: &mut dyn FnMut(u32, &Primitive) -> bool) -> bool {
         let mut test = |id: u32| {
             let primitive = &self.primitives[id as usize];
-            primitive.intersect(ray, t_max).is_some() && visit(id, primitive)
+            primitive.meets(ray, t_max) && visit(id, primitive)
         };
         dispatch!(self.level, simd => self.any_hit_with(simd, ray, t_max, &mut test))
     }
@@ -188,7 +200,10 @@ impl World {
                 hits &= hits - 1;
             }
         }
-        self.bvh.any(simd, ray, t_max, |thing| test(self.bounded_ids[thing as usize]))
+        if let [id] = self.bounded_ids[..] {
+            return test(id);
+        }
+        self.bvh.any(simd, ray, t_max, |things| self.bounded_ids[things].iter().any(|&id| test(id)))
     }
 
     /// The surface at a hit of `ray`.
@@ -203,15 +218,33 @@ impl World {
 }
 
 /// The best hit so far.
-struct Best {
+pub(crate) struct Best {
     hit: Option<Hit>,
     /// Hits below this may win; one at the same distance as the best still may, by its index.
     reach: f64,
 }
 
 impl Best {
+    /// Nothing yet; only hits below `t_max` count.
     #[inline(always)]
-    fn offer(&mut self, primitive: u32, crossing: Crossing) {
+    pub(crate) fn below(t_max: f64) -> Best {
+        Best { hit: None, reach: t_max }
+    }
+
+    /// The best hit.
+    #[inline(always)]
+    pub(crate) fn hit(&self) -> Option<Hit> {
+        self.hit
+    }
+
+    /// Hits at or beyond this cannot win.
+    #[inline(always)]
+    pub(crate) fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    #[inline(always)]
+    pub(crate) fn offer(&mut self, primitive: u32, crossing: Crossing) {
         let wins = match self.hit {
             None => crossing.t < self.reach,
             Some(best) => crossing.t < best.crossing.t || (crossing.t == best.crossing.t && primitive < best.primitive),

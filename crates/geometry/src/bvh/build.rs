@@ -1,122 +1,205 @@
-//! Builds the tree: binned splits by the surface area heuristic (Wald 2007), two by two, gathered into nodes of eight.
+//! Builds the tree: binned splits by the surface area heuristic (Wald, "On fast construction of SAH-based bounding volume
+//! hierarchies", 2007), two by two, gathered into nodes of eight.
+//!
+//! Items are sorted in place. Large parts are built side by side by several threads; each part is built alike whoever
+//! does it, so the tree is the same for any number of threads.
 
-use super::{Bvh, Child, MAX_DEPTH, Node};
-use crate::Bounds;
-use crate::simd::boxes::Boxes;
+use super::{Bvh, Child, MAX_DEPTH, MAX_LEAF, Node};
+use crate::simd::bins::{Bins, Centers, Cut, fill, measure, partition};
+use crate::simd::boxes::{Box32, Boxes};
+use arrayvec::ArrayVec;
+use fearless_simd::Level;
+use rayon::prelude::*;
 
-const BINS: usize = 16;
+/// Something with a box, and its number, which is kept in the bits of the box's first spare number.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Item(pub(crate) Box32);
 
-/// Things that share a box, as a range of the order array.
+/// Keeps the bits clear of subnormal numbers, which are slow on some machines.
+const NUMBERS: u32 = 1 << 30;
+
+impl Item {
+    pub(crate) fn new(number: u32, bounds: Box32) -> Item {
+        let mut bounds = bounds;
+        bounds.0[3] = f32::from_bits(NUMBERS + number);
+        Item(bounds)
+    }
+
+    #[inline(always)]
+    pub(crate) fn number(&self) -> u32 {
+        self.0.0[3].to_bits() - NUMBERS
+    }
+}
+
+/// What leaves are like.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Leaves {
+    /// Items that are tested at once: a test of fewer takes as long.
+    pub(crate) block: usize,
+    /// The most blocks in a leaf.
+    pub(crate) most: usize,
+}
+
+/// Parts with fewer items are not worth a thread.
+const SIDE_BY_SIDE: usize = 16_384;
+
+/// Items that share a box: a range of all.
 #[derive(Clone, Copy)]
 struct Part {
     start: usize,
     end: usize,
-    bounds: Bounds,
+    bounds: Box32,
+    centers: Centers,
+    /// True if it is better not divided.
+    whole: bool,
 }
 
-/// Builds a tree over things with these boxes; leaves name them by index.
-pub(crate) fn build(boxes: &[Bounds]) -> Bvh {
-    let mut builder = Builder { boxes, order: (0..boxes.len() as u32).collect(), nodes: Vec::new() };
-    if !boxes.is_empty() {
-        let all = builder.part(0, boxes.len());
-        builder.node(all, 1);
+/// Builds a tree over items, which are brought into the order of the leaves.
+pub(crate) fn build(items: &mut [Item], leaves: Leaves, level: Level) -> Bvh {
+    debug_assert!(leaves.most <= MAX_LEAF);
+    let mut nodes = Vec::new();
+    if !items.is_empty() {
+        let (bounds, centers) = measure(level, items);
+        let all = Part { start: 0, end: items.len(), bounds, centers, whole: false };
+        Builder { leaves, level }.node(items, 0, all, 1, &mut nodes);
     }
-    Bvh { nodes: builder.nodes }
+    Bvh { nodes }
 }
 
-struct Builder<'a> {
-    boxes: &'a [Bounds],
-    order: Vec<u32>,
-    nodes: Vec<Node>,
+struct Builder {
+    leaves: Leaves,
+    level: Level,
 }
 
-impl Builder<'_> {
-    /// Makes the node over a part and everything below it; gives its index.
-    fn node(&mut self, part: Part, depth: usize) -> usize {
+impl Builder {
+    /// Makes the node over a part and everything below it. `items` are all from the item with the index `first`.
+    fn node(&self, items: &mut [Item], first: usize, part: Part, depth: usize, nodes: &mut Vec<Node>) {
         debug_assert!(depth <= MAX_DEPTH, "traversal has room for so many levels");
-        let index = self.nodes.len();
-        self.nodes.push(Node { boxes: Boxes::EMPTY, children: [Child::leaf(0); 8] });
-        for (slot, child) in self.split_into_eight(part, depth).into_iter().enumerate() {
-            let content = match child.end - child.start {
-                1 => Child::leaf(self.order[child.start]),
-                _ => Child::node(self.node(child, depth + 1)),
+        let mut parts = self.split_into_eight(items, first, part, depth);
+        parts.sort_unstable_by_key(|part| part.start);
+        let index = nodes.len();
+        nodes.push(Node { boxes: Boxes::EMPTY, children: [Child::NONE; 8] });
+        let side_by_side = part.end - part.start > SIDE_BY_SIDE;
+        let mut subtrees = if side_by_side { self.subtrees(items, first, &parts, depth) } else { ArrayVec::new() };
+        for (slot, child) in parts.iter().enumerate() {
+            nodes[index].boxes.set(slot, &child.bounds);
+            nodes[index].children[slot] = if self.is_leaf(child) {
+                Child::leaf(child.start, child.end - child.start)
+            } else {
+                let below = Child::node(nodes.len());
+                match subtrees.get_mut(slot) {
+                    Some(subtree) => append(nodes, subtree),
+                    None => self.node(items, first, *child, depth + 1, nodes),
+                }
+                below
             };
-            self.nodes[index].boxes.set(slot, &child.bounds);
-            self.nodes[index].children[slot] = content;
         }
-        index
     }
 
-    /// Splits the largest part in two until there are eight or nothing is left to split.
-    fn split_into_eight(&mut self, part: Part, depth: usize) -> Vec<Part> {
-        let mut parts = vec![part];
-        while parts.len() < 8 {
-            let splittable = (0..parts.len()).filter(|&i| parts[i].end - parts[i].start > 1);
+    /// Builds what is below each part, by several threads.
+    fn subtrees(&self, items: &mut [Item], first: usize, parts: &[Part], depth: usize) -> ArrayVec<Vec<Node>, 8> {
+        let mut rest = items;
+        let mut at = first;
+        let mut tasks = ArrayVec::<(&mut [Item], Part), 8>::new();
+        for part in parts {
+            let (_, from_start) = rest.split_at_mut(part.start - at);
+            let (own, after) = from_start.split_at_mut(part.end - part.start);
+            (rest, at) = (after, part.end);
+            tasks.push((own, *part));
+        }
+        let build = |(own, part): (&mut [Item], Part)| {
+            let mut nodes = Vec::new();
+            if !self.is_leaf(&part) {
+                self.node(own, part.start, part, depth + 1, &mut nodes);
+            }
+            nodes
+        };
+        let built: Vec<Vec<Node>> = tasks.into_iter().collect::<Vec<_>>().into_par_iter().map(build).collect();
+        built.into_iter().collect()
+    }
+
+    fn is_leaf(&self, part: &Part) -> bool {
+        part.whole || part.end - part.start <= self.leaves.block
+    }
+
+    /// Splits the part with the largest area in two until there are eight or nothing is left to split.
+    fn split_into_eight(&self, items: &mut [Item], first: usize, part: Part, depth: usize) -> ArrayVec<Part, 8> {
+        let mut parts = ArrayVec::from_iter([part]);
+        while !parts.is_full() {
+            let splittable = (0..parts.len()).filter(|&i| !self.is_leaf(&parts[i]));
             let by_area = |&a: &usize, &b: &usize| parts[a].bounds.half_area().total_cmp(&parts[b].bounds.half_area());
             let largest = match must_halve(depth) {
                 true => splittable.max_by_key(|&i| parts[i].end - parts[i].start),
                 false => splittable.max_by(by_area),
             };
             let Some(largest) = largest else { break };
-            let whole = parts.swap_remove(largest);
-            let middle = self.split(whole, depth);
-            parts.push(self.part(whole.start, middle));
-            parts.push(self.part(middle, whole.end));
+            let whole = &mut parts[largest];
+            let own = &mut items[whole.start - first..whole.end - first];
+            match self.split(own, whole, depth) {
+                Some([left, right]) => {
+                    parts[largest] = left;
+                    parts.push(right);
+                }
+                None => whole.whole = true,
+            }
         }
         parts
     }
 
-    /// Orders a part of two or more things so that those of one side come first; gives the place of the cut.
-    fn split(&mut self, part: Part, depth: usize) -> usize {
-        let centers = Bounds::of_points(self.things(part).iter().map(|&i| self.boxes[i as usize].center()));
-        let cut = if must_halve(depth) { None } else { self.best_cut(part, &centers) };
-        let Some((axis, bin)) = cut else {
-            let axis = longest_axis(&centers);
-            let boxes = self.boxes;
-            let middle = (part.end - part.start) / 2;
-            self.order[part.start..part.end].select_nth_unstable_by(middle, |&a, &b| {
-                let (ca, cb) = (boxes[a as usize].center()[axis], boxes[b as usize].center()[axis]);
-                ca.total_cmp(&cb).then(a.cmp(&b))
-            });
-            return part.start + middle;
+    /// Orders the items of a part so that those of one side come first; `None` if the part is better left whole.
+    fn split(&self, items: &mut [Item], part: &Part, depth: usize) -> Option<[Part; 2]> {
+        let count = items.len();
+        let cut = if must_halve(depth) { None } else { self.best_cut(items, part) };
+        let blocks = self.blocks(count);
+        let divided = |middle: usize, sides: [(Box32, Centers); 2]| {
+            let [(bounds, centers), (right_bounds, right_centers)] = sides;
+            let cut = part.start + middle;
+            Some([
+                Part { start: part.start, end: cut, bounds, centers, whole: false },
+                Part { start: cut, end: part.end, bounds: right_bounds, centers: right_centers, whole: false },
+            ])
         };
-        let in_left = |i: u32| bin_of(&self.boxes[i as usize], &centers, axis) < bin;
-        let (left, right): (Vec<u32>, Vec<u32>) = self.things(part).iter().partition(|&&i| in_left(i));
-        self.order[part.start..part.start + left.len()].copy_from_slice(&left);
-        self.order[part.start + left.len()..part.end].copy_from_slice(&right);
-        part.start + left.len()
-    }
-
-    /// The axis and first bin of the right side that make the least expected cost, if any cut divides the part.
-    fn best_cut(&self, part: Part, centers: &Bounds) -> Option<(usize, usize)> {
-        let mut best = None;
-        let mut least = f64::INFINITY;
-        for axis in (0..3).filter(|&axis| centers.size()[axis] > 0.0) {
-            let mut bins = [(Bounds::EMPTY, 0usize); BINS];
-            for &i in self.things(part) {
-                let b = &self.boxes[i as usize];
-                let bin = &mut bins[bin_of(b, centers, axis)];
-                *bin = (bin.0.union(*b), bin.1 + 1);
+        match cut {
+            Some(cut) if blocks <= self.leaves.most && blocks as f32 * part.bounds.half_area() <= cut.cost => None,
+            Some(cut) => {
+                let (middle, sides) = partition(self.level, items, &cut);
+                divided(middle, sides)
             }
-            for cut in 1..BINS {
-                let cost = side_cost(&bins[..cut]) + side_cost(&bins[cut..]);
-                if cost < least {
-                    (least, best) = (cost, Some((axis, cut)));
-                }
+            None if blocks <= self.leaves.most && !must_halve(depth) => None,
+            None => {
+                let middle = halve(items, &part.centers);
+                let (left, right) = items.split_at(middle);
+                divided(middle, [measure(self.level, left), measure(self.level, right)])
             }
         }
-        best
     }
 
-    fn part(&self, start: usize, end: usize) -> Part {
-        let things = &self.order[start..end];
-        let bounds = things.iter().fold(Bounds::EMPTY, |b, &i| b.union(self.boxes[i as usize]));
-        Part { start, end, bounds }
+    /// The cut with the least expected cost, if any divides the items.
+    fn best_cut(&self, items: &[Item], part: &Part) -> Option<Cut> {
+        let mut bins = Bins::new(items.len(), &part.centers);
+        fill(self.level, &mut bins, items);
+        bins.best_cut(self.leaves.block, part.bounds.half_area())
     }
 
-    fn things(&self, part: Part) -> &[u32] {
-        &self.order[part.start..part.end]
+    fn blocks(&self, count: usize) -> usize {
+        count.div_ceil(self.leaves.block)
     }
+}
+
+/// Puts a subtree behind the nodes that are there.
+fn append(nodes: &mut Vec<Node>, subtree: &mut Vec<Node>) {
+    let base = nodes.len();
+    let shifted = |child: Child| if child.is_leaf() { child } else { Child::node(child.index() + base) };
+    nodes.extend(subtree.drain(..).map(|node| Node { children: node.children.map(shifted), ..node }));
+}
+
+/// Orders items by the longest extent of their centers so that half of them come first.
+fn halve(items: &mut [Item], centers: &Centers) -> usize {
+    let axis = longest_axis(centers);
+    let middle = items.len() / 2;
+    let center = |item: &Item| item.0.0[axis] - item.0.0[axis + 4];
+    items.select_nth_unstable_by(middle, |a, b| center(a).total_cmp(&center(b)).then(a.number().cmp(&b.number())));
+    middle
 }
 
 /// Near the greatest depth the largest parts are cut in halves, where the heuristic might peel off one thing at a time:
@@ -125,18 +208,7 @@ fn must_halve(depth: usize) -> bool {
     depth + 12 >= MAX_DEPTH
 }
 
-/// Area times number of things; infinite for an empty side, which would divide nothing.
-fn side_cost(bins: &[(Bounds, usize)]) -> f64 {
-    let (bounds, count) = bins.iter().fold((Bounds::EMPTY, 0), |(b, n), bin| (b.union(bin.0), n + bin.1));
-    if count == 0 { f64::INFINITY } else { bounds.half_area() * count as f64 }
-}
-
-fn bin_of(bounds: &Bounds, centers: &Bounds, axis: usize) -> usize {
-    let along = (bounds.center()[axis] - centers.min[axis]) / centers.size()[axis];
-    ((along * BINS as f64) as usize).min(BINS - 1)
-}
-
-fn longest_axis(bounds: &Bounds) -> usize {
-    let size = bounds.size();
-    (0..3).max_by(|&a, &b| size[a].total_cmp(&size[b])).unwrap_or(0)
+fn longest_axis(centers: &Centers) -> usize {
+    let extent = |axis: usize| -centers.0[axis + 4] - centers.0[axis];
+    (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0)
 }

@@ -1,85 +1,158 @@
 //! A ray's way through the tree: nearest first for the closest hit, in any order for any hit.
 
-use super::{Bvh, MAX_DEPTH};
+use super::{Bvh, Child, MAX_DEPTH};
 use crate::Ray;
 use crate::simd::boxes::{BoxRay, FAR_SLACK, round_up};
 use arrayvec::ArrayVec;
 use fearless_simd::Simd;
+use std::ops::Range;
 
 /// Boxes still to be visited: at most seven wait on each level.
-type Stack = ArrayVec<(u32, f32), { 7 * MAX_DEPTH + 8 }>;
+type Stack = ArrayVec<Entry, { 7 * MAX_DEPTH + 8 }>;
+
+/// A box still to be visited, and where the ray enters it.
+#[derive(Clone, Copy)]
+struct Entry {
+    child: Child,
+    enter: f32,
+}
+
+/// Is told what a search does. The usual one is `()`, which costs nothing.
+pub(crate) trait Watch {
+    /// A node's boxes are tested.
+    fn node(&mut self);
+    /// So many things are tested together.
+    fn things(&mut self, count: usize);
+}
+
+impl Watch for () {
+    #[inline(always)]
+    fn node(&mut self) {}
+    #[inline(always)]
+    fn things(&mut self, _count: usize) {}
+}
+
+/// How much work a search was.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Nodes whose eight boxes were tested.
+    pub nodes: u64,
+    /// Primitives that were tested.
+    pub primitives: u64,
+}
+
+impl Watch for Work {
+    fn node(&mut self) {
+        self.nodes += 1;
+    }
+    fn things(&mut self, count: usize) {
+        self.primitives += count as u64;
+    }
+}
 
 impl Bvh {
-    /// Calls `test(thing)` for the things whose boxes the ray may meet before `t_max`, roughly from near to far; `test`
-    /// gives the new `t_max`, smaller if the thing was hit.
+    /// Calls `test(items)` for the leaves that the ray may meet before `t_max`, roughly from near to far; `test` gives the
+    /// new `t_max`, smaller if something was hit.
     #[inline(always)]
-    pub(crate) fn nearest<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, mut test: impl FnMut(u32) -> f64) {
+    pub(crate) fn nearest<S: Simd, W: Watch>(
+        &self,
+        simd: S,
+        ray: &Ray,
+        t_max: f64,
+        watch: &mut W,
+        mut test: impl FnMut(Range<usize>, &mut W) -> f64,
+    ) {
         if self.nodes.is_empty() {
             return;
         }
         let box_ray = BoxRay::new(ray);
         let mut t_max = round_up(t_max);
         let mut stack = Stack::new();
-        let mut index = 0;
+        let mut at = Child::node(0);
         loop {
-            let node = &self.nodes[index];
-            let (mut hits, enter) = box_ray.hits(simd, &node.boxes, t_max);
-            let waiting = stack.len();
-            while hits != 0 {
-                let slot = hits.trailing_zeros() as usize;
-                hits &= hits - 1;
-                push_by_distance(&mut stack, waiting, (node.children[slot & 7].0, enter[slot & 7]));
-            }
-            index = loop {
-                let Some((child, enter)) = stack.pop() else { return };
-                // `enter` is rounded like the test of the box, and gets the same allowance.
-                if enter > t_max * FAR_SLACK {
-                    continue;
+            // Down to a leaf, nearest child first.
+            while !at.is_leaf() {
+                let node = &self.nodes[at.index()];
+                watch.node();
+                let (mut hits, enter) = box_ray.hits(simd, &node.boxes, t_max);
+                if hits == 0 {
+                    at = Child::NONE;
+                    break;
                 }
-                match super::Child(child).thing() {
-                    None => break super::Child(child).index(),
-                    Some(thing) => t_max = round_up(test(thing)),
+                let slot = next(&mut hits);
+                let mut nearest = Entry { child: node.children[slot], enter: enter[slot] };
+                let bottom = stack.len();
+                while hits != 0 {
+                    let slot = next(&mut hits);
+                    let mut farther = Entry { child: node.children[slot], enter: enter[slot] };
+                    if farther.enter < nearest.enter {
+                        std::mem::swap(&mut nearest, &mut farther);
+                    }
+                    push_by_distance(&mut stack, bottom, farther);
+                }
+                at = nearest.child;
+            }
+            if at != Child::NONE {
+                t_max = round_up(test(at.items(), watch));
+            }
+            at = loop {
+                let Some(entry) = stack.pop() else { return };
+                // `enter` is rounded like the test of the box, and gets the same allowance.
+                if entry.enter <= t_max * FAR_SLACK {
+                    break entry.child;
                 }
             };
         }
     }
 
-    /// True if `test(thing)` is, for some thing whose box the ray may meet before `t_max`.
+    /// True if `test(items)` is, for some leaf that the ray may meet before `t_max`.
     #[inline(always)]
-    pub(crate) fn any<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, mut test: impl FnMut(u32) -> bool) -> bool {
+    pub(crate) fn any<S: Simd>(
+        &self,
+        simd: S,
+        ray: &Ray,
+        t_max: f64,
+        mut test: impl FnMut(Range<usize>) -> bool,
+    ) -> bool {
         if self.nodes.is_empty() {
             return false;
         }
         let box_ray = BoxRay::new(ray);
         let t_max = round_up(t_max);
-        let mut stack = Stack::new();
+        let mut stack = ArrayVec::<Child, { 7 * MAX_DEPTH + 8 }>::new();
         let mut index = 0;
         loop {
             let node = &self.nodes[index];
             let (mut hits, _) = box_ray.hits(simd, &node.boxes, t_max);
             while hits != 0 {
-                let child = node.children[hits.trailing_zeros() as usize & 7];
-                hits &= hits - 1;
-                match child.thing() {
-                    Some(thing) if test(thing) => return true,
+                stack.push(node.children[next(&mut hits)]);
+            }
+            index = loop {
+                match stack.pop() {
+                    None => return false,
+                    Some(child) if !child.is_leaf() => break child.index(),
+                    Some(leaf) if test(leaf.items()) => return true,
                     Some(_) => {}
-                    None => stack.push((child.0, 0.0)),
                 }
-            }
-            match stack.pop() {
-                Some((child, _)) => index = super::Child(child).index(),
-                None => return false,
-            }
+            };
         }
     }
 }
 
+/// Takes the lowest bit.
+#[inline(always)]
+fn next(bits: &mut u64) -> usize {
+    let slot = bits.trailing_zeros() as usize;
+    *bits &= *bits - 1;
+    slot & 7
+}
+
 /// Pushes above `bottom` so that what is entered first lies on top.
 #[inline(always)]
-fn push_by_distance(stack: &mut Stack, bottom: usize, entry: (u32, f32)) {
+fn push_by_distance(stack: &mut Stack, bottom: usize, entry: Entry) {
     let mut at = stack.len();
     stack.push(entry);
-    while at > bottom && stack[at - 1].1 < entry.1 {
+    while at > bottom && stack[at - 1].enter < entry.enter {
         stack.swap(at - 1, at);
         at -= 1;
     }

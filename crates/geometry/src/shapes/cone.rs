@@ -185,7 +185,7 @@ impl Shape for Cone {
 
     /// With u = 2⁻⁵³: putting a point on the side leaves it within 5 u; x² + z² - w² is computed to 8 u times its
     /// radius, half of that in distance, and w itself to 2 u. Twice their sum.
-    fn rounding(&self) -> f64 {
+    fn rounding(&self, _part: u32) -> f64 {
         11.0 * f64::EPSILON
     }
 }

@@ -55,7 +55,7 @@ impl Shape for Cuboid {
     }
 
     /// Zero: on a face the coordinate is ±1 exactly, and the sign of its difference from ±1 is what decides.
-    fn rounding(&self) -> f64 {
+    fn rounding(&self, _part: u32) -> f64 {
         0.0
     }
 }

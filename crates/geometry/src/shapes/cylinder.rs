@@ -98,7 +98,7 @@ impl Shape for Cylinder {
     }
 
     /// As for the sphere, whose reasoning holds for x and z alone.
-    fn rounding(&self) -> f64 {
+    fn rounding(&self, _part: u32) -> f64 {
         11.0 * f64::EPSILON
     }
 }

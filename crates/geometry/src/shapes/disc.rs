@@ -39,7 +39,7 @@ impl Shape for Disc {
     }
 
     /// Zero, as for the plane.
-    fn rounding(&self) -> f64 {
+    fn rounding(&self, _part: u32) -> f64 {
         0.0
     }
 }

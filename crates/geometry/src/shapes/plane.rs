@@ -40,7 +40,7 @@ impl Shape for Plane {
     }
 
     /// Zero: a point on it has y = 0 exactly, and that is what `intersect` looks at.
-    fn rounding(&self) -> f64 {
+    fn rounding(&self, _part: u32) -> f64 {
         0.0
     }
 }

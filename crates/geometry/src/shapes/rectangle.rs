@@ -35,7 +35,7 @@ impl Shape for Rectangle {
     }
 
     /// Zero, as for the plane.
-    fn rounding(&self) -> f64 {
+    fn rounding(&self, _part: u32) -> f64 {
         0.0
     }
 }

@@ -64,7 +64,7 @@ impl Shape for Sphere {
 
     /// With u = 2⁻⁵³: normalizing leaves |p| within 4 u of 1; o·o - 1 is computed to 4 u, or 2 u of distance; the point
     /// nearest to the center likewise to 5 u. Twice their sum.
-    fn rounding(&self) -> f64 {
+    fn rounding(&self, _part: u32) -> f64 {
         11.0 * f64::EPSILON
     }
 }

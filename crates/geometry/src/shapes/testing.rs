@@ -75,7 +75,7 @@ impl Known<'_> {
 
     /// How far to move a point off the surface: as little as the contract allows.
     fn offset(&self) -> f64 {
-        self.shape.rounding() * 1.01 + f64::EPSILON
+        self.shape.rounding(0) * 1.01 + f64::EPSILON
     }
 
     fn hit(&self, ray: &Ray) -> Option<Crossing> {

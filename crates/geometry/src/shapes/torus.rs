@@ -223,7 +223,7 @@ impl Shape for Torus {
 
     /// With u = 2⁻⁵³: ρ and the moved origin are known to about 6 u each, g to 4 u r beyond what that makes of it, or
     /// 2 u of distance, and a point is put on the tube to 4 u. Twice their sum.
-    fn rounding(&self) -> f64 {
+    fn rounding(&self, _part: u32) -> f64 {
         18.0 * f64::EPSILON
     }
 }
@@ -256,7 +256,7 @@ mod tests {
         let mut random = Random(13);
         for r in [1e-6, 1e-3, 0.1, 0.5, 0.999] {
             let torus = Torus { tube_radius: r };
-            let offset = torus.rounding() * 1.01;
+            let offset = torus.rounding(0) * 1.01;
             for _ in 0..20_000 {
                 let ring = random.direction() * DVec3::new(1.0, 0.0, 1.0);
                 let tube = random.direction();
@@ -272,7 +272,7 @@ mod tests {
                 let exit = torus.intersect(&inward, f64::INFINITY).expect("what is inside comes out");
                 let q = inward.at(exit.t);
                 let (_, m) = torus.surface(q, 0);
-                assert!(depth(q, r).abs() < torus.rounding(), "r = {r}: {inward:?} comes out at {q}");
+                assert!(depth(q, r).abs() < torus.rounding(0), "r = {r}: {inward:?} comes out at {q}");
                 assert!(m.dot(inward.direction) > -1e-7, "r = {r}: {inward:?} comes out at {q}");
             }
         }

@@ -19,22 +19,22 @@ pub(crate) struct Triangle {
     pub(crate) uvs: [DVec2; 3],
 }
 
-/// The axes (x, y, z) with z the direction's longest.
-#[inline]
-fn axes_along(direction: DVec3) -> (usize, usize, usize) {
-    let d = direction.abs();
-    if d.x > d.y && d.x > d.z {
-        (1, 2, 0)
-    } else if d.y > d.z {
-        (2, 0, 1)
+/// The axis along which a direction is longest.
+#[inline(always)]
+pub(crate) fn longest(direction: [f64; 3]) -> usize {
+    let [x, y, z] = direction.map(f64::abs);
+    if x > y && x > z {
+        0
+    } else if y > z {
+        1
     } else {
-        (0, 1, 2)
+        2
     }
 }
 
 impl Triangle {
     /// The weights of b and c at the point of the triangle's plane nearest to `point`.
-    fn weights(&self, point: DVec3) -> (f64, f64) {
+    pub(crate) fn weights(&self, point: DVec3) -> (f64, f64) {
         let [a, b, c] = self.vertices;
         let (ab, ac, ap) = (b - a, c - a, point - a);
         let normal = ab.cross(ac);
@@ -50,7 +50,8 @@ impl Shape for Triangle {
 
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<Crossing> {
-        let (x, y, z) = axes_along(ray.direction);
+        let z = longest(ray.direction.to_array());
+        let (x, y) = ((z + 1) % 3, (z + 2) % 3);
         let inverse = 1.0 / ray.direction[z];
         let (shear_x, shear_y) = (ray.direction[x] * inverse, ray.direction[y] * inverse);
         // Each corner seen from the origin, sheared.
@@ -89,7 +90,7 @@ impl Shape for Triangle {
     /// Coordinates are rounded with their own size; edge functions with the square of the longest edge, which tilts the
     /// plane that the test sees by the ratio of that square to the area. For slivers the latter counts; beyond some
     /// ratio a triangle is as good as none.
-    fn rounding(&self) -> f64 {
+    fn rounding(&self, _part: u32) -> f64 {
         let [a, b, c] = self.vertices;
         let size = self.vertices.iter().map(|v| v.abs().max_element()).fold(0.0, f64::max);
         let edge2 = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared());
@@ -169,7 +170,7 @@ mod tests {
                 let u = random.direction();
                 let out = n * cosine + (u - n * u.dot(n)).normalize() * (1.0 - cosine * cosine).sqrt();
                 for side in [1.0, -1.0] {
-                    let ray = Ray { origin: p + n * (side * triangle.rounding()), direction: out * side };
+                    let ray = Ray { origin: p + n * (side * triangle.rounding(0)), direction: out * side };
                     assert_eq!(triangle.intersect(&ray, f64::INFINITY), None, "{ray:?} left {triangle:?}");
                     tried += 1;
                 }
@@ -185,7 +186,7 @@ mod tests {
         let down = Ray { origin: DVec3::new(0.5, 1.0, 0.0), direction: DVec3::NEG_Y };
         assert_eq!(line.intersect(&down, f64::INFINITY), None);
         assert_eq!(flat.intersect(&down, f64::INFINITY), None);
-        assert!(line.rounding().is_finite());
+        assert!(line.rounding(0).is_finite());
     }
 
     #[test]

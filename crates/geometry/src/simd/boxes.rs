@@ -1,7 +1,52 @@
-//! One ray against eight axis-aligned boxes, in single precision but conservatively: never a miss that is a hit.
+//! Axis-aligned boxes in single precision: one ray against eight of them, conservatively (never a miss that is a hit), and
+//! what the builder of the tree does with them.
 
 use crate::{Bounds, Ray};
 use fearless_simd::{Simd, f32x8, prelude::*};
+
+/// An axis-aligned box: the least coordinates, a spare number, the greatest coordinates with their signs changed, a spare
+/// number. The union of two is the minimum, lane by lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub(crate) struct Box32(pub(crate) [f32; 8]);
+
+impl Box32 {
+    /// Contains nothing.
+    pub(crate) const EMPTY: Box32 = Box32([f32::INFINITY; 8]);
+
+    /// The box between two corners.
+    pub(crate) fn new(min: [f32; 3], max: [f32; 3]) -> Box32 {
+        Box32([min[0], min[1], min[2], 0.0, -max[0], -max[1], -max[2], 0.0])
+    }
+
+    /// The smallest box around `bounds`.
+    pub(crate) fn around(bounds: &Bounds) -> Box32 {
+        Box32::new(bounds.min.to_array().map(round_down), bounds.max.to_array().map(round_up))
+    }
+
+    /// The smallest box around both.
+    #[inline(always)]
+    pub(crate) fn union(self, other: Box32) -> Box32 {
+        Box32(std::array::from_fn(|i| if other.0[i] < self.0[i] { other.0[i] } else { self.0[i] }))
+    }
+
+    /// Least coordinates.
+    pub(crate) fn min(&self) -> [f32; 3] {
+        [self.0[0], self.0[1], self.0[2]]
+    }
+
+    /// Greatest coordinates.
+    pub(crate) fn max(&self) -> [f32; 3] {
+        [-self.0[4], -self.0[5], -self.0[6]]
+    }
+
+    /// Half the surface area; 0 if empty.
+    #[inline(always)]
+    pub(crate) fn half_area(&self) -> f32 {
+        let [x, y, z] = std::array::from_fn(|axis| -self.0[axis + 4] - self.0[axis]);
+        if x < 0.0 { 0.0 } else { x * y + y * z + z * x }
+    }
+}
 
 /// Eight boxes: for each axis the lower planes, then the upper planes, rounded outward to single precision.
 #[derive(Clone, Copy, Debug)]
@@ -15,10 +60,11 @@ impl Boxes {
     pub(crate) const EMPTY: Boxes = Boxes { planes: [[[f32::INFINITY; 8], [f32::NEG_INFINITY; 8]]; 3] };
 
     /// Puts a box into a slot.
-    pub(crate) fn set(&mut self, slot: usize, bounds: &Bounds) {
+    pub(crate) fn set(&mut self, slot: usize, bounds: &Box32) {
+        let (min, max) = (bounds.min(), bounds.max());
         for axis in 0..3 {
-            self.planes[axis][0][slot] = round_down(bounds.min[axis]);
-            self.planes[axis][1][slot] = round_up(bounds.max[axis]);
+            self.planes[axis][0][slot] = min[axis];
+            self.planes[axis][1][slot] = max[axis];
         }
     }
 }
@@ -39,16 +85,20 @@ pub(crate) struct BoxRay {
 pub(crate) const FAR_SLACK: f32 = 1.0 + 12.0 * (f32::EPSILON / 2.0);
 
 impl BoxRay {
+    #[inline(always)]
     pub(crate) fn new(ray: &Ray) -> BoxRay {
         let mut out = BoxRay { near: [0; 3], origin_for_near: [0.0; 3], origin_for_far: [0.0; 3], inverse: [0.0; 3] };
+        let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
         for axis in 0..3 {
-            let (low, high) = (round_down(ray.origin[axis]), round_up(ray.origin[axis]));
-            let direction = ray.direction[axis] as f32;
+            let direction = direction[axis] as f32;
             // A finite stand-in for 1/0 keeps 0 · ∞ out; the ray then leaves the slab practically never.
-            out.inverse[axis] = (1.0 / direction).clamp(-f32::MAX, f32::MAX);
-            let backward = direction.is_sign_negative();
-            out.near[axis] = usize::from(backward);
-            (out.origin_for_near[axis], out.origin_for_far[axis]) = if backward { (low, high) } else { (high, low) };
+            out.inverse[axis] = (1.0 / direction).max(-f32::MAX).min(f32::MAX);
+            out.near[axis] = usize::from(direction.is_sign_negative());
+            // Rounded towards where the ray goes it is nearer to what lies ahead, and against it farther.
+            let nearest = origin[axis] as f32;
+            let doubt = (nearest.abs() * f32::EPSILON + f32::from_bits(1)).copysign(direction);
+            out.origin_for_near[axis] = nearest + doubt;
+            out.origin_for_far[axis] = nearest - doubt;
         }
         out
     }

@@ -1,0 +1,217 @@
+//! Triangle meshes: a tree of their own over blocks of four triangles.
+
+use super::Shape;
+use super::triangle::Triangle;
+use crate::bvh::traverse::{Watch, Work};
+use crate::bvh::{Bvh, Child, MAX_ITEMS, build};
+use crate::simd::boxes::Box32;
+use crate::simd::triangles::{TriangleRay, Triangles};
+use crate::world::Best;
+use crate::{Bounds, Crossing, Ray};
+use durer_math::{DVec2, DVec3};
+use fearless_simd::{Level, Simd, dispatch};
+use std::collections::HashMap;
+use std::fmt::Debug;
+use std::sync::{Arc, OnceLock};
+
+/// The lists that a mesh is made of. They stay where they are: a mesh keeps what its tree needs, and looks up the rest of
+/// the one triangle that was hit.
+pub trait MeshSource: Debug + Send + Sync {
+    /// The vertices, finite.
+    fn positions(&self) -> &[[f32; 3]];
+    /// Three vertices each, all of which exist; counter-clockwise seen from the front.
+    fn triangles(&self) -> &[[u32; 3]];
+    /// Shading normals, one for each vertex or none; of any length but zero.
+    fn normals(&self) -> &[[f32; 3]];
+    /// Texture coordinates, one for each vertex or none.
+    fn uvs(&self) -> &[[f32; 2]];
+}
+
+/// A triangle mesh, ready for rays.
+#[derive(Debug)]
+pub struct Mesh {
+    source: Arc<dyn MeshSource>,
+    bvh: Bvh,
+    blocks: Vec<Triangles>,
+    bounds: Bounds,
+    /// Whether it has an inside; found out when first asked.
+    closed: OnceLock<bool>,
+    level: Level,
+}
+
+/// How many blocks a leaf may have.
+const MOST_BLOCKS: usize = 2;
+
+impl Mesh {
+    /// The most triangles that one mesh can have.
+    pub const MOST_TRIANGLES: usize = MAX_ITEMS;
+
+    /// Builds the tree, with as many threads as the current pool has.
+    pub fn build(source: Arc<dyn MeshSource>) -> Mesh {
+        Mesh::build_for(source, Level::new())
+    }
+
+    pub(crate) fn build_for(source: Arc<dyn MeshSource>, level: Level) -> Mesh {
+        let (positions, triangles) = (source.positions(), source.triangles());
+        let corners = |id: usize| triangles[id].map(|vertex| positions[vertex as usize]);
+        let mut items: Vec<build::Item> =
+            (0..triangles.len()).map(|id| build::Item::new(id as u32, bounds_of(corners(id)))).collect();
+        let bounds = items.iter().fold(Box32::EMPTY, |all, item| all.union(item.0));
+        let leaves = build::Leaves { block: Triangles::COUNT, most: MOST_BLOCKS };
+        let mut bvh = build::build(&mut items, leaves, level);
+        let mut blocks = Vec::with_capacity(items.len() / 2);
+        for leaf in bvh.leaves_mut() {
+            let first = blocks.len();
+            for block in items[leaf.items()].chunks(Triangles::COUNT) {
+                let numbers = block.iter().map(|item| item.number());
+                blocks.push(Triangles::new(numbers.map(|id| (id, corners(id as usize)))));
+            }
+            *leaf = Child::leaf(first, blocks.len() - first);
+        }
+        blocks.shrink_to_fit();
+        Mesh { bounds: Bounds::from(bounds), bvh, blocks, closed: OnceLock::new(), level, source }
+    }
+
+    /// Bytes held beside the source.
+    pub fn memory(&self) -> usize {
+        self.bvh.memory() + size_of_val(self.blocks.as_slice())
+    }
+
+    /// The lists it is made of.
+    pub fn source(&self) -> &dyn MeshSource {
+        &*self.source
+    }
+
+    /// True if it has an inside: each edge joins two triangles that run along it in opposite directions.
+    pub fn is_closed(&self) -> bool {
+        *self.closed.get_or_init(|| is_closed(&*self.source))
+    }
+
+    /// The shading normal at a point of a triangle, of any length but zero, if the mesh has such normals.
+    pub(crate) fn shading_normal(&self, point: DVec3, part: u32) -> Option<DVec3> {
+        let normals = self.source.normals();
+        if normals.is_empty() {
+            return None;
+        }
+        let corners = self.source.triangles()[part as usize].map(|vertex| wide(normals[vertex as usize]));
+        let [a, b, c] = self.weights(point, part);
+        Some(corners[0] * a + corners[1] * b + corners[2] * c)
+    }
+
+    /// The weights of a triangle's corners at a point of it.
+    pub(crate) fn weights(&self, point: DVec3, part: u32) -> [f64; 3] {
+        let (b, c) = self.triangle(part).weights(point);
+        [1.0 - b - c, b, c]
+    }
+
+    fn triangle(&self, part: u32) -> Triangle {
+        let corners = self.source.triangles()[part as usize];
+        let vertices = corners.map(|vertex| wide(self.source.positions()[vertex as usize]));
+        let uvs = match self.source.uvs() {
+            [] => [DVec2::ZERO, DVec2::X, DVec2::Y],
+            uvs => corners.map(|vertex| DVec2::from(uvs[vertex as usize].map(f64::from))),
+        };
+        Triangle { vertices, uvs }
+    }
+
+    #[inline(always)]
+    fn nearest<S: Simd, W: Watch>(&self, simd: S, ray: &Ray, t_max: f64, watch: &mut W) -> Option<Crossing> {
+        let triangle_ray = TriangleRay::new(simd, ray);
+        let mut best = Best::below(t_max);
+        self.bvh.nearest(simd, ray, t_max, watch, |blocks, watch| {
+            for block in &self.blocks[blocks] {
+                watch.things(Triangles::COUNT);
+                let (mut hits, t) = triangle_ray.hits(simd, block, best.reach());
+                while hits != 0 {
+                    let slot = hits.trailing_zeros() as usize & 3;
+                    hits &= hits - 1;
+                    best.offer(0, Crossing { t: t[slot], part: block.ids[slot] });
+                }
+            }
+            best.reach()
+        });
+        best.hit().map(|hit| hit.crossing)
+    }
+
+    #[inline(always)]
+    fn any<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64) -> bool {
+        let triangle_ray = TriangleRay::new(simd, ray);
+        self.bvh.any(simd, ray, t_max, |blocks| {
+            self.blocks[blocks].iter().any(|block| triangle_ray.hits(simd, block, t_max).0 != 0)
+        })
+    }
+}
+
+fn wide(v: [f32; 3]) -> DVec3 {
+    DVec3::from(v.map(f64::from))
+}
+
+fn bounds_of(corners: [[f32; 3]; 3]) -> Box32 {
+    let [a, b, c] = corners;
+    let least = |axis: usize| a[axis].min(b[axis]).min(c[axis]);
+    let greatest = |axis: usize| a[axis].max(b[axis]).max(c[axis]);
+    Box32::new(std::array::from_fn(least), std::array::from_fn(greatest))
+}
+
+/// Corners at the same place count as one, whatever their numbers are; triangles without area do not count.
+fn is_closed(source: &dyn MeshSource) -> bool {
+    let mut numbers: HashMap<[u32; 3], u32> = HashMap::new();
+    // Adding 0 makes -0 and 0 the same.
+    let mut number = |position: [f32; 3]| {
+        let next = numbers.len() as u32;
+        *numbers.entry(position.map(|x| (x + 0.0).to_bits())).or_insert(next)
+    };
+    let places: Vec<u32> = source.positions().iter().map(|&position| number(position)).collect();
+    let mut edges: HashMap<[u32; 2], i32> = HashMap::new();
+    for triangle in source.triangles() {
+        let [a, b, c] = triangle.map(|vertex| places[vertex as usize]);
+        if a == b || b == c || c == a {
+            continue;
+        }
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            *edges.entry([from.min(to), from.max(to)]).or_insert(0) += if from < to { 1 } else { -1 };
+        }
+    }
+    !edges.is_empty() && edges.values().all(|&balance| balance == 0)
+}
+
+impl Shape for Mesh {
+    fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    fn intersect(&self, ray: &Ray, t_max: f64) -> Option<Crossing> {
+        dispatch!(self.level, simd => self.nearest(simd, ray, t_max, &mut ()))
+    }
+
+    fn intersect_watched(&self, ray: &Ray, t_max: f64, work: &mut Work) -> Option<Crossing> {
+        dispatch!(self.level, simd => self.nearest(simd, ray, t_max, work))
+    }
+
+    fn meets(&self, ray: &Ray, t_max: f64) -> bool {
+        dispatch!(self.level, simd => self.any(simd, ray, t_max))
+    }
+
+    fn surface(&self, point: DVec3, part: u32) -> (DVec3, DVec3) {
+        self.triangle(part).surface(point, 0)
+    }
+
+    fn uv(&self, point: DVec3, part: u32) -> DVec2 {
+        self.triangle(part).uv(point, 0)
+    }
+
+    /// Inside is where the first triangle in some direction is seen from behind.
+    fn contains(&self, point: DVec3) -> bool {
+        // A direction that no edge of a mesh made by people is likely to lie in.
+        let ray = Ray { origin: point, direction: DVec3::new(0.371_931, 0.612_147, 0.697_877) };
+        let inside = |crossing: Crossing| {
+            let (_, normal) = self.surface(ray.at(crossing.t), crossing.part);
+            normal.dot(ray.direction) > 0.0
+        };
+        self.is_closed() && self.intersect(&ray, f64::INFINITY).is_some_and(inside)
+    }
+
+    fn rounding(&self, part: u32) -> f64 {
+        self.triangle(part).rounding(0)
+    }
+}

@@ -1,0 +1,193 @@
+//! The builder's loops over items: finding their common box, counting them into bins, dividing them.
+//!
+//! The instruction set is chosen once for each part. All operations are minima, sums and products lane by lane, so all
+//! sets give the same tree.
+
+use super::boxes::Box32;
+use crate::bvh::build::Item;
+use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x4, prelude::*};
+
+/// A box around the centers of items, each taken twice as large so that no halving is needed: least coordinates, a spare
+/// number, greatest coordinates with their signs changed, a spare number.
+pub(crate) type Centers = Box32;
+
+/// The most bins of an axis. More make trees hardly better and cost time.
+const MOST_BINS: usize = 32;
+
+/// Items counted by where their centers lie along each axis.
+pub(crate) struct Bins {
+    count: usize,
+    scale: Scale,
+    boxes: [[Box32; MOST_BINS]; 3],
+    counts: [[u32; MOST_BINS]; 3],
+}
+
+/// How a center becomes the number of a bin.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scale {
+    base: [f32; 4],
+    factor: [f32; 4],
+}
+
+/// A place to divide items at: the bins of an axis before this one, and the rest.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cut {
+    axis: usize,
+    bin: u32,
+    scale: Scale,
+    /// Expected cost of the divided part: areas times blocks.
+    pub(crate) cost: f32,
+}
+
+impl Scale {
+    fn new(count: usize, centers: &Centers) -> Scale {
+        let mut scale = Scale { base: [0.0; 4], factor: [0.0; 4] };
+        for axis in 0..3 {
+            let (low, extent) = (centers.0[axis], -centers.0[axis + 4] - centers.0[axis]);
+            scale.base[axis] = low;
+            // Slightly less than the number of bins, so that the greatest center still lies in the last.
+            let factor = 0.99 * count as f32 / extent;
+            scale.factor[axis] = if factor.is_finite() { factor } else { 0.0 };
+        }
+        scale
+    }
+
+    #[inline(always)]
+    fn bins<S: Simd>(&self, simd: S, center: f32x4<S>) -> [i32; 4] {
+        let base = f32x4::simd_from(simd, self.base);
+        let factor = f32x4::simd_from(simd, self.factor);
+        let along: i32x4<S> = ((center - base) * factor).to_int();
+        along.into()
+    }
+}
+
+impl Bins {
+    pub(crate) fn new(items: usize, centers: &Centers) -> Bins {
+        let count = (4 + items / 16).min(MOST_BINS);
+        Bins {
+            count,
+            scale: Scale::new(count, centers),
+            boxes: [[Box32::EMPTY; MOST_BINS]; 3],
+            counts: [[0; MOST_BINS]; 3],
+        }
+    }
+
+    /// The cut with the least cost, if any divides the items; `area` is that of all.
+    pub(crate) fn best_cut(&self, block: usize, area: f32) -> Option<Cut> {
+        let mut best: Option<Cut> = None;
+        for axis in (0..3).filter(|&axis| self.scale.factor[axis] > 0.0) {
+            let (boxes, counts) = (&self.boxes[axis], &self.counts[axis]);
+            let cost = |bounds: &Box32, count: u32| bounds.half_area() * (count as usize).div_ceil(block) as f32;
+            let mut right_costs = [(0.0, 0); MOST_BINS];
+            let (mut bounds, mut count) = (Box32::EMPTY, 0);
+            for bin in (1..self.count).rev() {
+                (bounds, count) = (bounds.union(boxes[bin]), count + counts[bin]);
+                right_costs[bin] = (cost(&bounds, count), count);
+            }
+            (bounds, count) = (Box32::EMPTY, 0);
+            for bin in 1..self.count {
+                (bounds, count) = (bounds.union(boxes[bin - 1]), count + counts[bin - 1]);
+                let (right, right_count) = right_costs[bin];
+                let cost = area + cost(&bounds, count) + right;
+                if count > 0 && right_count > 0 && best.is_none_or(|best| cost < best.cost) {
+                    best = Some(Cut { axis, bin: bin as u32, scale: self.scale, cost });
+                }
+            }
+        }
+        best
+    }
+}
+
+/// The box around items, and that around their centers.
+pub(crate) fn measure(level: Level, items: &[Item]) -> (Box32, Centers) {
+    dispatch!(level, simd => measure_with(simd, items))
+}
+
+#[inline(always)]
+fn measure_with<S: Simd>(simd: S, items: &[Item]) -> (Box32, Centers) {
+    let mut sums = Sums::new(simd);
+    items.iter().for_each(|item| sums.add(simd, item));
+    sums.done()
+}
+
+/// What is known of the items of a side.
+struct Sums<S: Simd> {
+    bounds: f32x8<S>,
+    centers: f32x8<S>,
+}
+
+impl<S: Simd> Sums<S> {
+    #[inline(always)]
+    fn new(simd: S) -> Sums<S> {
+        let empty = f32x8::splat(simd, f32::INFINITY);
+        Sums { bounds: empty, centers: empty }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, simd: S, item: &Item) {
+        let bounds = f32x8::simd_from(simd, item.0.0);
+        self.bounds = self.bounds.min(bounds);
+        let center = center_of(bounds);
+        self.centers = self.centers.min(center.combine(-center));
+    }
+
+    #[inline(always)]
+    fn done(self) -> (Box32, Centers) {
+        (Box32(self.bounds.into()), Box32(self.centers.into()))
+    }
+}
+
+/// Twice the middle of a box.
+#[inline(always)]
+fn center_of<S: Simd>(bounds: f32x8<S>) -> f32x4<S> {
+    let (low, high) = bounds.split();
+    low - high
+}
+
+/// Counts items into bins.
+pub(crate) fn fill(level: Level, bins: &mut Bins, items: &[Item]) {
+    dispatch!(level, simd => fill_with(simd, bins, items));
+}
+
+#[inline(always)]
+fn fill_with<S: Simd>(simd: S, bins: &mut Bins, items: &[Item]) {
+    for item in items {
+        let bounds = f32x8::simd_from(simd, item.0.0);
+        let at = bins.scale.bins(simd, center_of(bounds));
+        for axis in 0..3 {
+            let bin = at[axis] as usize & (MOST_BINS - 1);
+            let sum = &mut bins.boxes[axis][bin].0;
+            *sum = f32x8::simd_from(simd, *sum).min(bounds).into();
+            bins.counts[axis][bin] += 1;
+        }
+    }
+}
+
+/// Brings the items before the cut to the front; gives their number and, for both sides, boxes and centers.
+pub(crate) fn partition(level: Level, items: &mut [Item], cut: &Cut) -> (usize, [(Box32, Centers); 2]) {
+    dispatch!(level, simd => partition_with(simd, items, cut))
+}
+
+#[inline(always)]
+fn partition_with<S: Simd>(simd: S, items: &mut [Item], cut: &Cut) -> (usize, [(Box32, Centers); 2]) {
+    let (mut left, mut right) = (Sums::new(simd), Sums::new(simd));
+    let is_left = |item: &Item| {
+        let at = cut.scale.bins(simd, center_of(f32x8::simd_from(simd, item.0.0)));
+        (at[cut.axis & 3] as u32) < cut.bin
+    };
+    let (mut start, mut end) = (0, items.len());
+    loop {
+        while start < end && is_left(&items[start]) {
+            left.add(simd, &items[start]);
+            start += 1;
+        }
+        while start < end && !is_left(&items[end - 1]) {
+            right.add(simd, &items[end - 1]);
+            end -= 1;
+        }
+        if start >= end {
+            return (start, [left.done(), right.done()]);
+        }
+        items.swap(start, end - 1);
+    }
+}
