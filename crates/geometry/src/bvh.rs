@@ -8,13 +8,13 @@ pub(crate) mod traverse;
 use crate::simd::boxes::Boxes;
 
 /// A tree over numbered things. Nodes are in one array, the root first.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Bvh {
     pub(crate) nodes: Vec<Node>,
 }
 
 /// Up to eight children: their boxes, and what is in them. Four lines of the cache.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(crate) struct Node {
     pub(crate) boxes: Boxes,

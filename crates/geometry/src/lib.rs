@@ -5,6 +5,7 @@
 
 mod bounds;
 mod bvh;
+mod packet;
 mod primitive;
 mod ray;
 mod shapes;
@@ -14,6 +15,7 @@ mod world;
 
 pub use bounds::Bounds;
 pub use bvh::traverse::Work;
+pub use packet::{LANES, Packet, PacketHits};
 pub use primitive::{Primitive, Surface};
 pub use ray::{Crossing, Ray};
 pub use shapes::mesh::{Mesh, MeshSource};

@@ -1,5 +1,6 @@
 //! A shape placed in the world, and the points on it from which new rays may start.
 
+use crate::packet::{LANES, Packet, PacketHits};
 use crate::shapes::{
     Shape, cone::Cone, cuboid::Cuboid, cylinder::Cylinder, disc::Disc, mesh::Mesh, plane::Plane, rectangle::Rectangle,
     sphere::Sphere, torus::Torus, triangle::Triangle,
@@ -43,6 +44,9 @@ macro_rules! each_kind {
         }
     };
 }
+
+/// More surfaces one behind the other than this are not looked at: what light is left then is nothing.
+const MOST_CROSSINGS: u32 = 100_000;
 
 /// A shape placed in the world by an affine map, which may scale, shear and mirror it.
 #[derive(Clone, Debug)]
@@ -220,19 +224,77 @@ impl Primitive {
         each_kind!(&self.kind, shape => shape.meets(&self.ray_in_shape(ray), t_max))
     }
 
-    /// How often the ray crosses it with 0 < t < `t_max`; no shape is crossed more than four times.
+    /// As [`Primitive::intersect`] for the rays of a packet: hits nearer than those in `hits` take their places.
+    pub(crate) fn intersect_packet(&self, packet: &Packet, hits: &mut PacketHits) {
+        match &self.kind {
+            Kind::Mesh(mesh) => mesh.intersect_packet(&self.packet_in_shape(packet), hits),
+            _ => {
+                for lane in 0..packet.count() {
+                    if let Some(crossing) = self.intersect(&packet.ray(lane), hits.t[lane]) {
+                        (hits.t[lane], hits.part[lane]) = (crossing.t, f64::from(crossing.part));
+                    }
+                }
+            }
+        }
+    }
+
+    /// As [`Primitive::meets`] for the rays of a packet, one bit each.
+    pub(crate) fn meets_packet(&self, packet: &Packet, t_max: &[f64; LANES]) -> u32 {
+        match &self.kind {
+            Kind::Mesh(mesh) => mesh.meets_packet(&self.packet_in_shape(packet), t_max),
+            _ => (0..packet.count())
+                .fold(0, |met, lane| met | u32::from(self.meets(&packet.ray(lane), t_max[lane])) << lane),
+        }
+    }
+
+    /// How often the ray crosses it with 0 < t < `t_max`.
     pub fn count_crossings(&self, ray: &Ray, t_max: f64) -> u32 {
-        let (mut ray, mut t_max, mut count) = (*ray, t_max, 0);
-        while let Some(crossing) = self.intersect(&ray, t_max)
-            && count < 4
-        {
+        let mut count = 0;
+        let _ = self.each_crossing(ray, t_max, |_, _, _| {
             count += 1;
+            false
+        });
+        count
+    }
+
+    /// Calls `visit` for one crossing with 0 < t < `t_max` after the other, from near to far, until it returns true; gives
+    /// whether it did.
+    ///
+    /// `visit` gets the ray from the surface before, the crossing of that ray, and the surface there.
+    pub fn each_crossing(
+        &self,
+        ray: &Ray,
+        t_max: f64,
+        mut visit: impl FnMut(&Ray, &Crossing, &Surface) -> bool,
+    ) -> bool {
+        let (mut ray, mut t_max) = (*ray, t_max);
+        for _ in 0..self.most_crossings() {
+            let Some(crossing) = self.intersect(&ray, t_max) else { return false };
             let surface = self.surface(&ray, &crossing);
+            if visit(&ray, &crossing, &surface) {
+                return true;
+            }
             let onward = surface.offset.copysign(ray.direction.dot(surface.normal));
             ray.origin = surface.point + surface.normal * onward;
             t_max -= crossing.t;
         }
-        count
+        false
+    }
+
+    /// A bound on how often a straight line crosses it, so that no loop over crossings runs on for ever.
+    fn most_crossings(&self) -> u32 {
+        match self.kind {
+            Kind::Plane(_)
+            | Kind::Sphere(_)
+            | Kind::Cuboid(_)
+            | Kind::Cylinder(_)
+            | Kind::Cone(_)
+            | Kind::Disc(_)
+            | Kind::Rectangle(_)
+            | Kind::Triangle(_)
+            | Kind::Torus(_) => 4,
+            Kind::Mesh(_) => MOST_CROSSINGS,
+        }
     }
 
     /// The surface at a crossing of `ray`.
@@ -266,10 +328,32 @@ impl Primitive {
         each_kind!(&self.kind, shape => shape.uv(point, part))
     }
 
+    /// The unit normal that shading is to use at a point of the surface, in the world, if it is not the surface's own:
+    /// interpolated between the vertices of a mesh. It may point to either side.
+    pub fn shading_normal(&self, point: DVec3, part: u32) -> Option<DVec3> {
+        let Kind::Mesh(mesh) = &self.kind else { return None };
+        let normal = mesh.shading_normal(self.in_shape(point), part)?;
+        let normal = self.shape_from_world.transpose() * normal;
+        // Opposite normals may cancel out.
+        normal.try_normalize()
+    }
+
+    /// The weights of a triangle's three vertices at a point of it, if it is a mesh.
+    pub fn vertex_weights(&self, point: DVec3, part: u32) -> Option<[f64; 3]> {
+        let Kind::Mesh(mesh) = &self.kind else { return None };
+        Some(mesh.weights(self.in_shape(point), part))
+    }
+
     /// True for a point inside; always false for what has no inside.
     pub fn contains(&self, point: DVec3) -> bool {
         let point = self.in_shape(point);
         each_kind!(&self.kind, shape => shape.contains(point))
+    }
+
+    /// The same arithmetic as for a single ray, lane by lane.
+    #[inline(always)]
+    fn packet_in_shape(&self, packet: &Packet) -> Packet {
+        packet.map(|ray| self.ray_in_shape(&ray))
     }
 
     #[inline(always)]

@@ -2,10 +2,12 @@
 
 use crate::bvh::Bvh;
 use crate::bvh::build::{Item, Leaves, build};
-use crate::simd::boxes::Box32;
+use crate::bvh::traverse::Watch;
+use crate::packet::{LANES, Packet, PacketHits};
+use crate::simd::boxes::{Box32, BoxPacket, BoxRay};
 use crate::simd::planes::Planes;
 use crate::vantage::{Boxed, Flat, MOST_BOUNDED, MOST_PLANES, Vantage};
-use crate::{Bounds, Crossing, Primitive, Ray, Surface};
+use crate::{Bounds, Crossing, Primitive, Ray, Surface, Work};
 use durer_math::{DVec2, DVec3};
 use fearless_simd::{Level, Simd, dispatch};
 
@@ -101,7 +103,7 @@ impl World {
             Some(ids) => {
                 let mut best = Best::below(t_max);
                 for &id in ids {
-                    self.offer(&mut best, id, ray, mask);
+                    self.offer(&mut best, id, ray, mask, &mut ());
                 }
                 best.hit
             }
@@ -111,24 +113,44 @@ impl World {
 
     #[inline(never)]
     fn closest_hit_in_tree(&self, ray: &Ray, t_max: f64, mask: u32) -> Option<Hit> {
-        dispatch!(self.level, simd => self.closest_hit_with(simd, ray, t_max, mask))
+        dispatch!(self.level, simd => self.closest_hit_with(simd, ray, t_max, mask, &mut ()))
+    }
+
+    /// As [`World::closest_hit`] without a vantage, adding what it took.
+    pub fn closest_hit_watched(&self, ray: &Ray, t_max: f64, mask: u32, work: &mut Work) -> Option<Hit> {
+        dispatch!(self.level, simd => self.closest_hit_with(simd, ray, t_max, mask, work))
     }
 
     /// Tests one primitive; keeps what is best.
     #[inline(always)]
-    fn offer(&self, best: &mut Best, id: u32, ray: &Ray, mask: u32) {
+    fn offer(&self, best: &mut Best, id: u32, ray: &Ray, mask: u32, watch: &mut impl Tester) {
         let primitive = &self.primitives[id as usize];
         if primitive.mask & mask != 0
-            && let Some(crossing) = primitive.intersect(ray, best.reach)
+            && let Some(crossing) = watch.intersect(primitive, ray, best.reach)
         {
             best.offer(id, crossing);
         }
     }
 
     #[inline(always)]
-    fn closest_hit_with<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, mask: u32) -> Option<Hit> {
+    fn closest_hit_with<S: Simd, W: Tester>(
+        &self,
+        simd: S,
+        ray: &Ray,
+        t_max: f64,
+        mask: u32,
+        watch: &mut W,
+    ) -> Option<Hit> {
         let mut best = Best::below(t_max);
+        self.offer_planes(simd, &mut best, ray, mask, watch);
+        self.offer_bounded(simd, &mut best, ray, mask, watch);
+        best.hit
+    }
+
+    #[inline(always)]
+    fn offer_planes<S: Simd>(&self, simd: S, best: &mut Best, ray: &Ray, mask: u32, watch: &mut impl Tester) {
         for planes in &self.planes {
+            watch.things(planes.ids.len());
             let (mut hits, t) = planes.hits(simd, ray, best.reach);
             while hits != 0 {
                 let slot = hits.trailing_zeros() as usize & 3;
@@ -139,18 +161,140 @@ impl World {
                 }
             }
         }
+    }
+
+    #[inline(always)]
+    fn offer_bounded<S: Simd>(&self, simd: S, best: &mut Best, ray: &Ray, mask: u32, watch: &mut impl Tester) {
         if let [id] = self.bounded_ids[..] {
-            self.offer(&mut best, id, ray, mask);
-            return best.hit;
+            self.offer(best, id, ray, mask, watch);
+            return;
         }
         let reach = best.reach;
-        self.bvh.nearest(simd, ray, reach, &mut (), |things, ()| {
-            for &id in &self.bounded_ids[things] {
-                self.offer(&mut best, id, ray, mask);
+        self.bvh.nearest(
+            simd,
+            &BoxRay::new(ray),
+            reach,
+            watch,
+            #[inline(always)]
+            |things, watch| {
+                for &id in &self.bounded_ids[things] {
+                    self.offer(best, id, ray, mask, watch);
+                }
+                best.reach
+            },
+        );
+    }
+
+    /// As [`World::closest_hit`] for each ray of a packet: the same hits, found together.
+    pub fn closest_hits(&self, packet: &Packet, t_max: f64, mask: u32) -> [Option<Hit>; LANES] {
+        dispatch!(self.level, simd => self.closest_hits_with(simd, packet, t_max, mask))
+    }
+
+    #[inline(always)]
+    fn closest_hits_with<S: Simd>(&self, simd: S, packet: &Packet, t_max: f64, mask: u32) -> [Option<Hit>; LANES] {
+        let mut best = [Best::below(t_max); LANES];
+        for (lane, best) in best.iter_mut().enumerate() {
+            self.offer_planes(simd, best, &packet.ray(lane), mask, &mut ());
+        }
+        if let [id] = self.bounded_ids[..] {
+            self.offer_to_packet(&mut best, id, packet, mask);
+        } else if !self.offer_together(simd, &mut best, packet, mask) {
+            for (lane, best) in best.iter_mut().enumerate().take(packet.count()) {
+                self.offer_bounded(simd, best, &packet.ray(lane), mask, &mut ());
             }
-            best.reach
-        });
-        best.hit
+        }
+        best.map(|best| best.hit)
+    }
+
+    /// False if the rays are not alike enough to go through the tree together to the end.
+    #[inline(always)]
+    fn offer_together<S: Simd>(&self, simd: S, best: &mut [Best; LANES], packet: &Packet, mask: u32) -> bool {
+        let Some(boxes) = BoxPacket::new(packet) else { return false };
+        self.bvh.nearest(
+            simd,
+            &boxes,
+            farthest(best),
+            &mut (),
+            #[inline(always)]
+            |things, ()| {
+                for &id in &self.bounded_ids[things] {
+                    self.offer_to_packet(best, id, packet, mask);
+                }
+                farthest(best)
+            },
+        )
+    }
+
+    /// Tests one primitive with all rays; keeps what is best for each.
+    fn offer_to_packet(&self, best: &mut [Best; LANES], id: u32, packet: &Packet, mask: u32) {
+        let primitive = &self.primitives[id as usize];
+        if primitive.mask & mask == 0 {
+            return;
+        }
+        let mut hits = PacketHits { t: best.each_ref().map(|best| best.reach), part: [-1.0; LANES] };
+        primitive.intersect_packet(packet, &mut hits);
+        for (lane, best) in best.iter_mut().enumerate() {
+            if hits.part[lane] >= 0.0 {
+                best.offer(id, Crossing { t: hits.t[lane], part: hits.part[lane] as u32 });
+            }
+        }
+    }
+
+    /// Which rays of a packet meet a primitive that shares a bit with `mask` at 0 < t < `t_max`, one bit each.
+    pub fn any_hits(&self, packet: &Packet, t_max: &[f64; LANES], mask: u32) -> u32 {
+        dispatch!(self.level, simd => self.any_hits_with(simd, packet, t_max, mask))
+    }
+
+    #[inline(always)]
+    fn any_hits_with<S: Simd>(&self, simd: S, packet: &Packet, t_max: &[f64; LANES], mask: u32) -> u32 {
+        let mut met = 0;
+        for lane in 0..packet.count() {
+            met |= u32::from(self.meets_plane(simd, &packet.ray(lane), t_max[lane], mask)) << lane;
+        }
+        if met != packet.all() && !self.any_together(simd, packet, t_max, mask, &mut met) {
+            let missing = packet.all() & !met;
+            for lane in (0..packet.count()).filter(|lane| missing >> lane & 1 == 1) {
+                let (ray, t_max) = (packet.ray(lane), t_max[lane]);
+                let mut meets = |id: u32| {
+                    let primitive = &self.primitives[id as usize];
+                    primitive.mask & mask != 0 && primitive.meets(&ray, t_max)
+                };
+                met |= u32::from(self.any_bounded(simd, &ray, t_max, &mut meets)) << lane;
+            }
+        }
+        met
+    }
+
+    /// False if the rays are not alike enough to go through the tree together to the end.
+    #[inline(always)]
+    fn any_together<S: Simd>(&self, simd: S, packet: &Packet, t_max: &[f64; LANES], mask: u32, met: &mut u32) -> bool {
+        let mut test = |id: u32| {
+            let primitive = &self.primitives[id as usize];
+            if primitive.mask & mask != 0 {
+                *met |= primitive.meets_packet(packet, t_max);
+            }
+            *met == packet.all()
+        };
+        if let [id] = self.bounded_ids[..] {
+            test(id);
+            return true;
+        }
+        let Some(boxes) = BoxPacket::new(packet) else { return false };
+        let reach = t_max.iter().fold(0.0, |most, &t| if t > most { t } else { most });
+        let found = self.bvh.any(
+            simd,
+            &boxes,
+            reach,
+            #[inline(always)]
+            |things| self.bounded_ids[things].iter().any(|&id| test(id)),
+        );
+        found.is_some()
+    }
+
+    #[inline(always)]
+    fn meets_plane<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, mask: u32) -> bool {
+        let mut meets = |id: u32| self.primitives[id as usize].mask & mask != 0;
+        self.any_plane(simd, ray, t_max, &mut meets)
     }
 
     /// Calls `visit` for primitives that the ray meets with 0 < t < `t_max`, in an order that has nothing to do with t,
@@ -191,6 +335,11 @@ impl World {
 
     #[inline(always)]
     fn any_hit_with<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, test: &mut impl FnMut(u32) -> bool) -> bool {
+        self.any_plane(simd, ray, t_max, test) || self.any_bounded(simd, ray, t_max, test)
+    }
+
+    #[inline(always)]
+    fn any_plane<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, test: &mut impl FnMut(u32) -> bool) -> bool {
         for planes in &self.planes {
             let (mut hits, _) = planes.hits(simd, ray, t_max);
             while hits != 0 {
@@ -200,15 +349,44 @@ impl World {
                 hits &= hits - 1;
             }
         }
+        false
+    }
+
+    #[inline(always)]
+    fn any_bounded<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, test: &mut impl FnMut(u32) -> bool) -> bool {
         if let [id] = self.bounded_ids[..] {
             return test(id);
         }
-        self.bvh.any(simd, ray, t_max, |things| self.bounded_ids[things].iter().any(|&id| test(id)))
+        self.bvh.any(
+            simd,
+            &BoxRay::new(ray),
+            t_max,
+            #[inline(always)]
+            |things| {
+                for &id in &self.bounded_ids[things] {
+                    if test(id) {
+                        return true;
+                    }
+                }
+                false
+            },
+        ) == Some(true)
     }
 
     /// The surface at a hit of `ray`.
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         self.primitives[hit.primitive as usize].surface(ray, &hit.crossing)
+    }
+
+    /// The unit normal that shading is to use at a point on the surface that was hit, if it is not the surface's own. It may
+    /// point to either side.
+    pub fn shading_normal(&self, point: DVec3, hit: &Hit) -> Option<DVec3> {
+        self.primitives[hit.primitive as usize].shading_normal(point, hit.crossing.part)
+    }
+
+    /// The weights of a triangle's three vertices at a point on the surface that was hit, if that is a mesh.
+    pub fn vertex_weights(&self, point: DVec3, hit: &Hit) -> Option<[f64; 3]> {
+        self.primitives[hit.primitive as usize].vertex_weights(point, hit.crossing.part)
     }
 
     /// Texture coordinates at a point on the surface that was hit.
@@ -217,7 +395,31 @@ impl World {
     }
 }
 
+/// Tests primitives for a search, and may count what it takes.
+trait Tester: Watch {
+    fn intersect(&mut self, primitive: &Primitive, ray: &Ray, t_max: f64) -> Option<Crossing>;
+}
+
+impl Tester for () {
+    #[inline(always)]
+    fn intersect(&mut self, primitive: &Primitive, ray: &Ray, t_max: f64) -> Option<Crossing> {
+        primitive.intersect(ray, t_max)
+    }
+}
+
+impl Tester for Work {
+    fn intersect(&mut self, primitive: &Primitive, ray: &Ray, t_max: f64) -> Option<Crossing> {
+        primitive.intersect_watched(ray, t_max, self)
+    }
+}
+
+/// How far a packet still has to look.
+fn farthest(best: &[Best; LANES]) -> f64 {
+    best.iter().fold(0.0, |most, best| if best.reach > most { best.reach } else { most })
+}
+
 /// The best hit so far.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Best {
     hit: Option<Hit>,
     /// Hits below this may win; one at the same distance as the best still may, by its index.
@@ -256,5 +458,7 @@ impl Best {
     }
 }
 
+#[cfg(test)]
+pub(crate) use tests::levels;
 #[cfg(test)]
 mod tests;

@@ -4,12 +4,13 @@ use super::Shape;
 use super::triangle::Triangle;
 use crate::bvh::traverse::{Watch, Work};
 use crate::bvh::{Bvh, Child, MAX_ITEMS, build};
-use crate::simd::boxes::Box32;
-use crate::simd::triangles::{TriangleRay, Triangles};
+use crate::packet::{LANES, Packet, PacketHits};
+use crate::simd::boxes::{Box32, BoxPacket, BoxRay};
+use crate::simd::triangles::{BestLanes, TrianglePacket, TriangleRay, Triangles};
 use crate::world::Best;
 use crate::{Bounds, Crossing, Ray};
 use durer_math::{DVec2, DVec3};
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
 use std::collections::HashMap;
 use std::fmt::Debug;
 use std::sync::{Arc, OnceLock};
@@ -118,27 +119,135 @@ impl Mesh {
     fn nearest<S: Simd, W: Watch>(&self, simd: S, ray: &Ray, t_max: f64, watch: &mut W) -> Option<Crossing> {
         let triangle_ray = TriangleRay::new(simd, ray);
         let mut best = Best::below(t_max);
-        self.bvh.nearest(simd, ray, t_max, watch, |blocks, watch| {
-            for block in &self.blocks[blocks] {
-                watch.things(Triangles::COUNT);
-                let (mut hits, t) = triangle_ray.hits(simd, block, best.reach());
-                while hits != 0 {
-                    let slot = hits.trailing_zeros() as usize & 3;
-                    hits &= hits - 1;
-                    best.offer(0, Crossing { t: t[slot], part: block.ids[slot] });
+        self.bvh.nearest(
+            simd,
+            &BoxRay::new(ray),
+            t_max,
+            watch,
+            #[inline(always)]
+            |blocks, watch| {
+                for block in &self.blocks[blocks] {
+                    watch.things(Triangles::COUNT);
+                    let (mut hits, t) = triangle_ray.hits(simd, block, best.reach());
+                    while hits != 0 {
+                        let slot = hits.trailing_zeros() as usize & 3;
+                        hits &= hits - 1;
+                        best.offer(block.ids[slot], Crossing { t: t[slot], part: block.ids[slot] });
+                    }
                 }
-            }
-            best.reach()
-        });
+                best.reach()
+            },
+        );
         best.hit().map(|hit| hit.crossing)
     }
 
     #[inline(always)]
     fn any<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64) -> bool {
         let triangle_ray = TriangleRay::new(simd, ray);
-        self.bvh.any(simd, ray, t_max, |blocks| {
-            self.blocks[blocks].iter().any(|block| triangle_ray.hits(simd, block, t_max).0 != 0)
-        })
+        self.bvh.any(
+            simd,
+            &BoxRay::new(ray),
+            t_max,
+            #[inline(always)]
+            |blocks| {
+                for block in &self.blocks[blocks] {
+                    if triangle_ray.hits(simd, block, t_max).0 != 0 {
+                        return true;
+                    }
+                }
+                false
+            },
+        ) == Some(true)
+    }
+}
+
+/// Rays that go different ways gain nothing from going together.
+enum Together<S: Simd> {
+    Yes(BoxPacket, TrianglePacket<S>),
+    No,
+}
+
+impl Mesh {
+    #[inline(always)]
+    fn together<S: Simd>(simd: S, packet: &Packet) -> Together<S> {
+        match (BoxPacket::new(packet), TrianglePacket::new(simd, packet)) {
+            (Some(boxes), Some(triangles)) => Together::Yes(boxes, triangles),
+            _ => Together::No,
+        }
+    }
+
+    #[inline(always)]
+    fn nearest_of_packet<S: Simd>(&self, simd: S, packet: &Packet, hits: &mut PacketHits) {
+        let mut done = false;
+        if let Together::Yes(boxes, triangles) = Mesh::together(simd, packet) {
+            let mut best = BestLanes { t: f64x8::simd_from(simd, hits.t), part: f64x8::simd_from(simd, hits.part) };
+            done = self.bvh.nearest(
+                simd,
+                &boxes,
+                best.t.reduce_max(),
+                &mut (),
+                #[inline(always)]
+                |blocks, ()| {
+                    for block in &self.blocks[blocks] {
+                        for slot in 0..block.count() {
+                            triangles.offer(simd, block, slot, &mut best);
+                        }
+                    }
+                    best.t.reduce_max()
+                },
+            );
+            (hits.t, hits.part) = (best.t.into(), best.part.into());
+        }
+        if !done {
+            for lane in 0..packet.count() {
+                // What was found together may be found again; then nothing changes.
+                let reach = if hits.part[lane] < 0.0 { hits.t[lane] } else { hits.t[lane].next_up() };
+                if let Some(crossing) = self.nearest(simd, &packet.ray(lane), reach, &mut ()) {
+                    (hits.t[lane], hits.part[lane]) = (crossing.t, f64::from(crossing.part));
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn any_of_packet<S: Simd>(&self, simd: S, packet: &Packet, t_max: &[f64; LANES]) -> u32 {
+        let mut met = 0;
+        let mut done = false;
+        if let Together::Yes(boxes, triangles) = Mesh::together(simd, packet) {
+            let reach = f64x8::simd_from(simd, *t_max);
+            let found = self.bvh.any(
+                simd,
+                &boxes,
+                reach.reduce_max(),
+                #[inline(always)]
+                |blocks| {
+                    for block in &self.blocks[blocks] {
+                        for slot in 0..block.count() {
+                            met |= triangles.hits(simd, block, slot, reach);
+                        }
+                    }
+                    met & packet.all() == packet.all()
+                },
+            );
+            done = found.is_some();
+        }
+        if !done {
+            let missing = packet.all() & !met;
+            for lane in (0..packet.count()).filter(|lane| missing >> lane & 1 == 1) {
+                met |= u32::from(self.any(simd, &packet.ray(lane), t_max[lane])) << lane;
+            }
+        }
+        met & packet.all()
+    }
+
+    /// As [`Shape::intersect`] for the rays of a packet: hits nearer than those in `hits` take their places.
+    pub(crate) fn intersect_packet(&self, packet: &Packet, hits: &mut PacketHits) {
+        dispatch!(self.level, simd => self.nearest_of_packet(simd, packet, hits));
+    }
+
+    /// As [`Shape::meets`] for the rays of a packet, one bit each.
+    pub(crate) fn meets_packet(&self, packet: &Packet, t_max: &[f64; LANES]) -> u32 {
+        dispatch!(self.level, simd => self.any_of_packet(simd, packet, t_max))
     }
 }
 
@@ -215,3 +324,6 @@ impl Shape for Mesh {
         self.triangle(part).rounding(0)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,7 @@
 //! Axis-aligned boxes in single precision: one ray against eight of them, conservatively (never a miss that is a hit), and
 //! what the builder of the tree does with them.
 
+use crate::packet::{LANES, Packet};
 use crate::{Bounds, Ray};
 use fearless_simd::{Simd, f32x8, prelude::*};
 
@@ -49,7 +50,7 @@ impl Box32 {
 }
 
 /// Eight boxes: for each axis the lower planes, then the upper planes, rounded outward to single precision.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
 pub(crate) struct Boxes {
     planes: [[[f32; 8]; 2]; 3],
@@ -117,6 +118,67 @@ impl BoxRay {
             let from_far = f32x8::splat(simd, self.origin_for_far[axis]);
             enter = enter.max((near_planes - from_near) * inverse);
             leave = leave.min((far_planes - from_far) * inverse);
+        }
+        let hit = enter.simd_le(leave * f32x8::splat(simd, FAR_SLACK));
+        (hit.to_bitmask(), enter.into())
+    }
+}
+
+/// What of a packet the box test needs: the ranges of its rays' origins and inverse directions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BoxPacket {
+    near: [usize; 3],
+    origin_for_near: [f32; 3],
+    origin_for_far: [f32; 3],
+    /// The least and the greatest.
+    inverse: [[f32; 2]; 3],
+}
+
+impl BoxPacket {
+    /// `None` if the rays do not all go the same way along each axis: their ranges would say nothing.
+    #[inline(always)]
+    pub(crate) fn new(packet: &Packet) -> Option<BoxPacket> {
+        let mut out =
+            BoxPacket { near: [0; 3], origin_for_near: [0.0; 3], origin_for_far: [0.0; 3], inverse: [[0.0; 2]; 3] };
+        for axis in 0..3 {
+            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+            let (mut least, mut greatest) = (f32::INFINITY, f32::NEG_INFINITY);
+            let mut backward = 0;
+            for lane in 0..LANES {
+                let (origin, direction) = (packet.origin[axis][lane], packet.direction[axis][lane] as f32);
+                (low, high) = (low.min(origin), high.max(origin));
+                let inverse = (1.0 / direction).max(-f32::MAX).min(f32::MAX);
+                (least, greatest) = (least.min(inverse), greatest.max(inverse));
+                backward += usize::from(direction.is_sign_negative());
+            }
+            let backward = match backward {
+                0 => false,
+                LANES => true,
+                _ => return None,
+            };
+            let (low, high) = (round_down(low), round_up(high));
+            out.near[axis] = usize::from(backward);
+            out.inverse[axis] = [least, greatest];
+            (out.origin_for_near[axis], out.origin_for_far[axis]) = if backward { (low, high) } else { (high, low) };
+        }
+        Some(out)
+    }
+
+    /// Which of the boxes some ray may meet between 0 and `t_max`, one bit each, and before where no ray enters each.
+    #[inline(always)]
+    pub(crate) fn hits<S: Simd>(&self, simd: S, boxes: &Boxes, t_max: f32) -> (u64, [f32; 8]) {
+        let mut enter = f32x8::splat(simd, 0.0);
+        let mut leave = f32x8::splat(simd, t_max);
+        for axis in 0..3 {
+            let near = self.near[axis];
+            let near_planes = f32x8::simd_from(simd, boxes.planes[axis][near & 1]);
+            let far_planes = f32x8::simd_from(simd, boxes.planes[axis][(near ^ 1) & 1]);
+            let least = f32x8::splat(simd, self.inverse[axis][0]);
+            let greatest = f32x8::splat(simd, self.inverse[axis][1]);
+            let to_near = near_planes - f32x8::splat(simd, self.origin_for_near[axis]);
+            let to_far = far_planes - f32x8::splat(simd, self.origin_for_far[axis]);
+            enter = enter.max((to_near * least).min(to_near * greatest));
+            leave = leave.min((to_far * least).max(to_far * greatest));
         }
         let hit = enter.simd_le(leave * f32x8::splat(simd, FAR_SLACK));
         (hit.to_bitmask(), enter.into())

@@ -61,7 +61,7 @@ impl Random {
     }
 }
 
-fn levels() -> Vec<Level> {
+pub(crate) fn levels() -> Vec<Level> {
     let mut levels = vec![Level::baseline(), Level::new()];
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     {

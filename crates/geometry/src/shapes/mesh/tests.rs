@@ -1,0 +1,237 @@
+//! A mesh answers as its triangles do, tested one by one, at every instruction set, for rays alone and in packets.
+
+use super::*;
+use crate::shapes::testing::Random;
+use crate::world::levels;
+
+#[derive(Debug)]
+struct Lists {
+    positions: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl MeshSource for Lists {
+    fn positions(&self) -> &[[f32; 3]] {
+        &self.positions
+    }
+    fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+    fn normals(&self) -> &[[f32; 3]] {
+        &[]
+    }
+    fn uvs(&self) -> &[[f32; 2]] {
+        &[]
+    }
+}
+
+fn narrow(v: DVec3) -> [f32; 3] {
+    v.to_array().map(|x| x as f32)
+}
+
+/// Loose triangles of all sizes, among them needles, points, and each fifth one twice.
+fn soup(random: &mut Random, count: usize) -> Lists {
+    let mut lists = Lists { positions: Vec::new(), triangles: Vec::new() };
+    for i in 0..count {
+        let first = lists.positions.len() as u32;
+        let (center, size) = (random.in_cube(), random.power(-4.0, 0.0));
+        let corner = |random: &mut Random| narrow(center + random.in_cube() * size);
+        match i % 7 {
+            0 => lists.positions.extend([narrow(center); 3]),
+            1 => {
+                let (a, b) = (corner(random), corner(random));
+                lists.positions.extend([a, b, b.map(|x| x * (1.0 + f32::EPSILON))]);
+            }
+            _ => lists.positions.extend([corner(random), corner(random), corner(random)]),
+        }
+        lists.triangles.push([first, first + 1, first + 2]);
+        if i % 5 == 0 {
+            lists.triangles.push([first, first + 1, first + 2]);
+        }
+    }
+    lists
+}
+
+/// A ball of triangles, dented so that it is not convex.
+fn ball(rings: usize) -> Lists {
+    let mut lists = Lists { positions: Vec::new(), triangles: Vec::new() };
+    let columns = 2 * rings;
+    for ring in 0..=rings {
+        for column in 0..columns {
+            let (a, b) = (ring as f64 / rings as f64 * 3.2 - 1.6, column as f64 * 0.77);
+            // Any closed surface will do: the poles are where whole rings share a point.
+            let wide = if ring == 0 || ring == rings { 0.0 } else { 1.0 - a * a / 3.0 };
+            let angle = column as f64 / columns as f64 * std::f64::consts::TAU;
+            let radius = wide * (1.0 + 0.2 * durer_math::functions::sin(b * 5.0));
+            let (x, z) = (durer_math::functions::cos(angle), durer_math::functions::sin(angle));
+            lists.positions.push(narrow(DVec3::new(x * radius, a, z * radius)));
+        }
+    }
+    for ring in 0..rings {
+        for column in 0..columns {
+            let at = |ring: usize, column: usize| (ring * columns + column % columns) as u32;
+            let (a, b) = (at(ring, column), at(ring, column + 1));
+            let (c, d) = (at(ring + 1, column), at(ring + 1, column + 1));
+            lists.triangles.extend([[a, c, b], [b, c, d]]);
+        }
+    }
+    lists
+}
+
+fn by_hand(mesh: &Mesh, ray: &Ray, t_max: f64) -> Option<Crossing> {
+    let mut best: Option<Crossing> = None;
+    for part in 0..mesh.source.triangles().len() as u32 {
+        if let Some(crossing) = mesh.triangle(part).intersect(ray, t_max)
+            && best.is_none_or(|best| crossing.t < best.t)
+        {
+            best = Some(Crossing { t: crossing.t, part });
+        }
+    }
+    best
+}
+
+/// Rays of all kinds: through the middle of things, at corners, along axes.
+fn some_ray(random: &mut Random, mesh: &Mesh) -> Ray {
+    let origin = random.in_cube() * random.between(0.0, 3.0);
+    let positions = mesh.source.positions();
+    let corner = wide(positions[random.between(0.0, positions.len() as f64) as usize]);
+    let direction = match random.between(0.0, 4.0) as u32 {
+        0 => corner - origin,
+        1 => DVec3::AXES[random.between(0.0, 3.0) as usize],
+        _ => random.direction(),
+    };
+    Ray { origin, direction }
+}
+
+#[test]
+fn the_nearest_triangle_is_that_of_testing_all() {
+    let mut random = Random(21);
+    for count in [1, 2, 5, 9, 40, 700] {
+        let lists: Arc<dyn MeshSource> = Arc::new(soup(&mut random, count));
+        let meshes: Vec<Mesh> = levels().into_iter().map(|level| Mesh::build_for(Arc::clone(&lists), level)).collect();
+        for _ in 0..400 {
+            let ray = some_ray(&mut random, &meshes[0]);
+            let t_max = if random.between(0.0, 1.0) < 0.3 { random.between(0.1, 2.0) } else { f64::INFINITY };
+            let expected = by_hand(&meshes[0], &ray, t_max);
+            for mesh in &meshes {
+                assert_eq!(mesh.intersect(&ray, t_max), expected);
+                assert_eq!(mesh.meets(&ray, t_max), expected.is_some());
+            }
+        }
+    }
+}
+
+#[test]
+fn rays_in_a_packet_hit_what_they_hit_alone() {
+    let mut random = Random(22);
+    for count in [3, 60, 3000] {
+        let lists: Arc<dyn MeshSource> = Arc::new(soup(&mut random, count));
+        for level in levels() {
+            let mesh = Mesh::build_for(Arc::clone(&lists), level);
+            for _ in 0..300 {
+                let first = some_ray(&mut random, &mesh);
+                let spread = random.power(-4.0, 0.5);
+                let near = |random: &mut Random| Ray {
+                    origin: first.origin + random.in_cube() * (spread * 0.1),
+                    direction: first.direction + random.in_cube() * spread,
+                };
+                let rays: Vec<Ray> = (0..1 + random.between(0.0, 8.0) as usize).map(|_| near(&mut random)).collect();
+                let packet = Packet::new(&rays);
+                let t_max = random.between(0.5, 4.0);
+                let mut hits = PacketHits::before(t_max);
+                mesh.intersect_packet(&packet, &mut hits);
+                let met = mesh.meets_packet(&packet, &[t_max; LANES]);
+                for (lane, ray) in rays.iter().enumerate() {
+                    let alone = mesh.intersect(ray, t_max);
+                    let part = hits.part[lane];
+                    let together = (part >= 0.0).then_some(Crossing { t: hits.t[lane], part: part as u32 });
+                    assert_eq!(together, alone);
+                    assert_eq!(met >> lane & 1 == 1, alone.is_some());
+                }
+                assert_eq!(met >> rays.len(), 0);
+            }
+        }
+    }
+}
+
+#[test]
+fn no_ray_leaves_a_closed_mesh() {
+    let mut random = Random(23);
+    let mesh = Mesh::build(Arc::new(ball(24)));
+    assert!(mesh.is_closed());
+    for _ in 0..100_000 {
+        let corner = |random: &mut Random| {
+            let positions = mesh.source.positions();
+            wide(positions[random.between(0.0, positions.len() as f64) as usize])
+        };
+        let origin = random.in_cube() * 0.2;
+        // At a corner, or along the line between two, which crosses edges at their ends more often than chance would.
+        let target = corner(&mut random);
+        let ray = Ray { origin, direction: target - origin };
+        assert!(mesh.intersect(&ray, f64::INFINITY).is_some(), "{ray:?} leaves");
+    }
+}
+
+#[test]
+fn inside_is_inside() {
+    let mut random = Random(24);
+    let mesh = Mesh::build(Arc::new(ball(16)));
+    let mut inside = 0;
+    for _ in 0..3000 {
+        let point = random.in_cube() * 1.5;
+        // The parity of crossings in another direction.
+        let (mut ray, mut crossings) = (Ray { origin: point, direction: DVec3::new(-0.3, 0.1, 0.9) }, 0);
+        while let Some(crossing) = mesh.intersect(&ray, f64::INFINITY) {
+            ray.origin = ray.at(crossing.t + 1e-9);
+            crossings += 1;
+        }
+        assert_eq!(mesh.contains(point), crossings % 2 == 1, "{point}");
+        inside += u32::from(crossings % 2 == 1);
+    }
+    assert!((500..2500).contains(&inside));
+}
+
+#[test]
+fn a_mesh_with_a_hole_or_a_flipped_triangle_is_not_closed() {
+    let holed = Lists { triangles: ball(8).triangles[1..].to_vec(), ..ball(8) };
+    // The first ring's first triangles have no area; take one from the middle.
+    let mut flipped = ball(8);
+    let middle = flipped.triangles.len() / 2;
+    flipped.triangles[middle].swap(1, 2);
+    let mut torn = ball(8);
+    torn.triangles.remove(middle);
+    assert!(Mesh::build(Arc::new(ball(8))).is_closed());
+    assert!(Mesh::build(Arc::new(holed)).is_closed() == (holed_is_flat()));
+    assert!(!Mesh::build(Arc::new(flipped)).is_closed());
+    assert!(!Mesh::build(Arc::new(torn)).is_closed());
+    assert!(!Mesh::build(Arc::new(soup(&mut Random(1), 30))).is_closed());
+}
+
+/// The first triangle of the ball lies in a pole, where a whole ring is one point, and has no area.
+fn holed_is_flat() -> bool {
+    let lists = ball(8);
+    let [a, b, c] = lists.triangles[0].map(|vertex| lists.positions[vertex as usize]);
+    a == b || b == c || c == a
+}
+
+#[test]
+fn the_tree_is_the_same_for_any_number_of_threads() {
+    let lists: Arc<dyn MeshSource> = Arc::new(soup(&mut Random(25), 60_000));
+    let built: Vec<Mesh> = [1, 2, 5]
+        .map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            pool.install(|| Mesh::build(Arc::clone(&lists)))
+        })
+        .into();
+    for mesh in &built[1..] {
+        assert!(mesh.bvh == built[0].bvh && mesh.blocks == built[0].blocks);
+    }
+}
+
+#[test]
+fn equal_centers_make_no_endless_tree() {
+    let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let mesh = Mesh::build(Arc::new(Lists { positions, triangles: vec![[0, 1, 2]; 5000] }));
+    let ray = Ray { origin: DVec3::new(0.2, 0.2, 1.0), direction: DVec3::NEG_Z };
+    assert_eq!(mesh.intersect(&ray, 2.0), Some(Crossing { t: 1.0, part: 0 }));
+}
