@@ -1,7 +1,38 @@
 //! `cargo xtask bench`: timings that are worth keeping, with all that is needed to judge them.
 
+mod growth;
+mod kernel;
+mod large;
 mod machine;
 mod measure;
-pub(crate) mod peers;
+mod options;
+mod peers;
+mod programs;
 mod report;
 mod tachyon;
+
+use options::Options;
+
+/// What there is, for the usage.
+pub(crate) const USAGE: &str = "\
+  bench peers [--rounds N]  the seed's room in durer, POV-Ray and Tachyon
+  bench large [--rounds N] [--counts N,N]
+                            up to a million shapes in durer, POV-Ray and Tachyon, from file to picture
+  bench kernel [--rounds N] [--scenes NAME,NAME]
+                            rays a second of durer, Embree 4 and the crates obvhs and bvh
+  bench growth [--rounds N] [--counts N,N]
+                            how durer's kernel grows with the scene, to docs/performance.md
+                            (the others write to benches/runs/)";
+
+/// Runs the benchmark that `words` name; `None` if there is none such.
+pub(crate) fn run(words: &[&str]) -> Option<Result<(), String>> {
+    let (name, words) = words.split_first()?;
+    let options = |known: &[&str]| Options::parse(words, known);
+    match *name {
+        "peers" => Some(options(&["--rounds"]).and_then(|options| peers::run(&options))),
+        "large" => Some(options(&["--rounds", "--counts"]).and_then(|options| large::run(&options))),
+        "kernel" => Some(options(&["--rounds", "--scenes"]).and_then(|options| kernel::run(&options))),
+        "growth" => Some(options(&["--rounds", "--counts"]).and_then(|options| growth::run(&options))),
+        _ => None,
+    }
+}

@@ -13,8 +13,7 @@ const USAGE: &str = "\
 cargo xtask CHORE
 
   bless [--check]           rewrite docs/scene.schema.json, docs/reference.md and docs/cli.md from the program
-  gallery [NAME ...]        render the pictures of docs/gallery (or only these) and write its page
-  bench peers [--rounds N]  the seed's room in durer, POV-Ray and Tachyon, to benches/runs/";
+  gallery [NAME ...]        render the pictures of docs/gallery (or only these) and write its page";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -33,15 +32,15 @@ fn run(words: &[&str]) -> Result<(), String> {
         ["bless"] => bless::run(),
         ["bless", "--check"] => bless::check(),
         ["gallery", names @ ..] => gallery::run(names),
-        ["bench", "peers"] => bench::peers::run(bench::peers::ROUNDS),
-        ["bench", "peers", "--rounds", rounds] => match rounds.parse() {
-            Ok(rounds) if rounds > 0 => bench::peers::run(rounds),
-            Ok(_) | Err(_) => Err(format!("--rounds: `{rounds}` is not a number above 0")),
-        },
         [] | ["help" | "--help" | "-h"] => {
-            println!("{USAGE}");
+            println!("{USAGE}\n{}", bench::USAGE);
             Ok(())
         }
-        _ => Err(format!("unknown chore `{}`\n\n{USAGE}", words.join(" "))),
+        ["bench", rest @ ..] => bench::run(rest).unwrap_or_else(|| unknown(words)),
+        _ => unknown(words),
     }
+}
+
+fn unknown(words: &[&str]) -> Result<(), String> {
+    Err(format!("unknown chore `{}`\n\n{USAGE}\n{}", words.join(" "), bench::USAGE))
 }

@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use crate::commands::{check, compare, completions, explain, info, man, render};
+use crate::commands::{check, compare, completions, explain, heatmap, info, man, render};
 use crate::exit::EXIT_CODES;
 use clap::{Parser, Subcommand};
 
@@ -8,6 +8,7 @@ const EXAMPLES: &str = "\
 Examples:
   durer render room.yaml                     writes room.png
   durer render room.yaml -o room.exr --width 1920
+  durer render model.glb
   durer check room.yaml
   durer explain room.yaml --pixel 120,43";
 
@@ -27,6 +28,7 @@ pub(crate) enum Command {
     Check(check::Arguments),
     Info(info::Arguments),
     Explain(explain::Arguments),
+    Heatmap(heatmap::Arguments),
     Compare(compare::Arguments),
     /// Print the JSON Schema of scene files
     #[command(after_help = "Example:\n  durer schema > scene.schema.json\n\n\

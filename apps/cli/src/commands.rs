@@ -4,6 +4,7 @@ pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod explain;
+pub(crate) mod heatmap;
 pub(crate) mod info;
 pub(crate) mod man;
 pub(crate) mod render;
@@ -19,6 +20,7 @@ pub(crate) fn run(command: &Command) -> Result<Exit, Failure> {
         Command::Check(arguments) => check::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
+        Command::Heatmap(arguments) => heatmap::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
         Command::Schema => schema::run(),
         Command::Completions(arguments) => completions::run(arguments),

@@ -2,18 +2,19 @@
 
 use crate::exit::{Exit, Failure};
 use crate::output;
+use crate::progress::{Phase, Show};
 use clap::Args;
-use durer::{CheckedScene, Diagnostics, LoadOptions, Loaded};
+use durer::{CheckedScene, CompiledScene, Diagnostics, LoadOptions, Loaded};
 use std::path::{Path, PathBuf};
 
 /// Which scene, and what it may read.
 #[derive(Args, Debug)]
 pub(crate) struct SceneArgs {
-    /// The scene file
+    /// The scene file, or a model: glTF (glb, gltf), PLY, OBJ or STL
     #[arg(value_name = "SCENE")]
     pub(crate) path: PathBuf,
 
-    /// Let the scene read images in this folder too, not only in its own (may be repeated)
+    /// Let the scene read files in this folder too, not only in its own (may be repeated)
     #[arg(long, value_name = "DIR")]
     allow_path: Vec<PathBuf>,
 }
@@ -25,8 +26,8 @@ impl SceneArgs {
     }
 
     /// Loads the scene. Prints its warnings, or what is wrong with it.
-    pub(crate) fn load(&self) -> Result<CheckedScene, Failure> {
-        match self.try_load()? {
+    pub(crate) fn load(&self, show: Show) -> Result<CheckedScene, Failure> {
+        match self.try_load(show)? {
             Ok(loaded) => {
                 if !loaded.warnings.is_empty() {
                     tell(&loaded.warnings);
@@ -40,13 +41,20 @@ impl SceneArgs {
         }
     }
 
-    /// Loads the scene and prints nothing.
+    /// Loads the scene and prints nothing but progress.
     ///
     /// # Errors
     /// The outer one if the file cannot be read, the inner one if it is wrong.
-    pub(crate) fn try_load(&self) -> Result<Result<Loaded, Diagnostics>, Failure> {
+    pub(crate) fn try_load(&self, show: Show) -> Result<Result<Loaded, Diagnostics>, Failure> {
         readable(&self.path)?;
+        let _phase = Phase::begin(format!("reading {}", self.name()), show);
         Ok(durer::load_file(&self.path, &self.options()))
+    }
+
+    /// Makes a loaded scene ready for rays.
+    pub(crate) fn compile(&self, scene: &CheckedScene, show: Show) -> CompiledScene {
+        let _phase = Phase::begin(format!("building {}", self.name()), show);
+        durer::compile(scene)
     }
 
     fn options(&self) -> LoadOptions {

@@ -11,6 +11,7 @@ mod load;
 mod numbers;
 mod output;
 mod overrides;
+mod progress;
 mod target;
 
 use clap::Parser;

@@ -11,13 +11,8 @@ use durer::scene::{Antialias, Picture, Problem, Scene, Step};
 #[derive(Args, Debug, Default)]
 #[command(next_help_heading = "Instead of what the scene says")]
 pub(crate) struct Overrides {
-    /// Width in pixels, at most 65535; without --height the shape of the picture is kept
-    #[arg(long, value_name = "PIXELS", value_parser = length(), allow_negative_numbers = true)]
-    width: Option<u32>,
-
-    /// Height in pixels, at most 65535; without --width the shape of the picture is kept
-    #[arg(long, value_name = "PIXELS", value_parser = length(), allow_negative_numbers = true)]
-    height: Option<u32>,
+    #[command(flatten)]
+    size: Size,
 
     /// Longest chain of rays, from 1 (the eye's rays alone) to 100
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100), allow_negative_numbers = true)]
@@ -30,6 +25,19 @@ pub(crate) struct Overrides {
     /// How light becomes the numbers of a PNG or JPEG
     #[arg(long, value_name = "CURVE")]
     transfer: Option<TransferArg>,
+}
+
+/// The size of the picture, in place of what the scene says.
+#[derive(Args, Clone, Copy, Debug, Default)]
+#[command(next_help_heading = "Instead of what the scene says")]
+pub(crate) struct Size {
+    /// Width in pixels, at most 65535; without --height the shape of the picture is kept
+    #[arg(long, value_name = "PIXELS", value_parser = length(), allow_negative_numbers = true)]
+    width: Option<u32>,
+
+    /// Height in pixels, at most 65535; without --width the shape of the picture is kept
+    #[arg(long, value_name = "PIXELS", value_parser = length(), allow_negative_numbers = true)]
+    height: Option<u32>,
 }
 
 /// [`Transfer`] by its words in scene files.
@@ -51,7 +59,7 @@ impl Overrides {
 
     fn change(&self, scene: &mut Scene) {
         let Scene { picture, render, .. } = scene;
-        (picture.width, picture.height) = self.size(picture);
+        (picture.width, picture.height) = self.size.of(picture);
         render.max_depth = self.max_depth.unwrap_or(render.max_depth);
         render.antialias = self.antialias.unwrap_or(render.antialias);
         picture.transfer = match self.transfer {
@@ -59,19 +67,6 @@ impl Overrides {
             Some(TransferArg::Linear) => Transfer::Linear,
             None => picture.transfer,
         };
-    }
-
-    fn size(&self, picture: &Picture) -> (u32, u32) {
-        let scaled = |length: u32, by: u32, of: u32| {
-            let rounded = (u64::from(length) * u64::from(by) + u64::from(of) / 2) / u64::from(of.max(1));
-            u32::try_from(rounded).unwrap_or(u32::MAX).max(1)
-        };
-        match (self.width, self.height) {
-            (Some(width), Some(height)) => (width, height),
-            (Some(width), None) => (width, scaled(picture.height, width, picture.width)),
-            (None, Some(height)) => (scaled(picture.width, height, picture.height), height),
-            (None, None) => (picture.width, picture.height),
-        }
     }
 
     fn describe(&self, problems: &[Problem]) -> String {
@@ -92,11 +87,11 @@ impl Overrides {
             Some(Step::Index(_) | Step::Material(_) | Step::Texture(_) | Step::Image(_)) | None => "",
         };
         match (field(0), field(1)) {
-            ("picture", "height") if self.height.is_none() => "--width, from which the height follows",
-            ("picture", "width") if self.width.is_none() => "--height, from which the width follows",
+            ("picture", "height") if self.size.height.is_none() => "--width, from which the height follows",
+            ("picture", "width") if self.size.width.is_none() => "--height, from which the width follows",
             ("picture", "height") => "--height",
             ("picture", "width") => "--width",
-            ("picture", _) => match (self.width, self.height) {
+            ("picture", _) => match (self.size.width, self.size.height) {
                 (Some(_), Some(_)) => "--width and --height",
                 (None, Some(_)) => "--height",
                 (_, None) => "--width",
@@ -105,6 +100,28 @@ impl Overrides {
             ("render", _) => "--antialias",
             _ => "the scene with these options",
         }
+    }
+}
+
+impl Size {
+    fn of(&self, picture: &Picture) -> (u32, u32) {
+        let scaled = |length: u32, by: u32, of: u32| {
+            let rounded = (u64::from(length) * u64::from(by) + u64::from(of) / 2) / u64::from(of.max(1));
+            u32::try_from(rounded).unwrap_or(u32::MAX).max(1)
+        };
+        match (self.width, self.height) {
+            (Some(width), Some(height)) => (width, height),
+            (Some(width), None) => (width, scaled(picture.height, width, picture.width)),
+            (None, Some(height)) => (scaled(picture.width, height, picture.height), height),
+            (None, None) => (picture.width, picture.height),
+        }
+    }
+}
+
+impl From<Size> for Overrides {
+    /// Nothing but the size.
+    fn from(size: Size) -> Overrides {
+        Overrides { size, ..Overrides::default() }
     }
 }
 
@@ -159,7 +176,7 @@ mod tests {
 
     #[test]
     fn one_length_keeps_the_shape() {
-        let size = |width, height| Overrides { width, height, ..Overrides::default() }.size(&Picture::default());
+        let size = |width, height| Size { width, height }.of(&Picture::default());
         assert_eq!(size(None, None), (640, 480));
         assert_eq!(size(Some(320), None), (320, 240));
         assert_eq!(size(None, Some(96)), (128, 96));

@@ -1,4 +1,7 @@
-//! The outside world, as far as scene files may reach it: the image files that they name.
+//! The outside world, as far as scene files may reach it: the images, models and tables that they name.
+//!
+//! Files are read whole. To map them into memory instead would take `unsafe`, and a file that another program cuts short
+//! while it is mapped would crash us.
 
 use std::fmt;
 use std::io::{self, Read};
@@ -6,12 +9,12 @@ use std::path::{Path, PathBuf};
 
 /// Where the files come from that a scene names. The page in a browser has another one than the command line.
 pub trait Assets {
-    /// The bytes of the file that a scene calls `relative`.
+    /// The bytes of the file that a scene calls `relative`, at most `max_bytes` of them.
     ///
     /// # Errors
     ///
-    /// If there is no such file, or it may not be read.
-    fn read(&self, relative: &str) -> Result<Vec<u8>, AssetError>;
+    /// If there is no such file, it may not be read, or it is larger.
+    fn read(&self, relative: &str, max_bytes: u64) -> Result<Vec<u8>, AssetError>;
 }
 
 /// Why a file cannot be had.
@@ -66,7 +69,7 @@ impl std::error::Error for AssetError {}
 pub struct NoAssets;
 
 impl Assets for NoAssets {
-    fn read(&self, _: &str) -> Result<Vec<u8>, AssetError> {
+    fn read(&self, _: &str, _: u64) -> Result<Vec<u8>, AssetError> {
         Err(AssetError::Unavailable)
     }
 }
@@ -77,13 +80,12 @@ impl Assets for NoAssets {
 pub struct FolderAssets {
     folder: PathBuf,
     allowed: Vec<PathBuf>,
-    max_bytes: u64,
 }
 
 impl FolderAssets {
     /// The files in and below `folder`.
     pub fn new(folder: impl Into<PathBuf>) -> FolderAssets {
-        FolderAssets { folder: folder.into(), allowed: Vec::new(), max_bytes: 256 << 20 }
+        FolderAssets { folder: folder.into(), allowed: Vec::new() }
     }
 
     /// Also those in and below `folder`.
@@ -93,12 +95,6 @@ impl FolderAssets {
         self
     }
 
-    /// Refuses files larger than this; 256 MiB unless told.
-    #[must_use]
-    pub fn max_bytes(self, max_bytes: u64) -> FolderAssets {
-        FolderAssets { max_bytes, ..self }
-    }
-
     fn may_read(&self, file: &Path) -> bool {
         let folders = std::iter::once(&self.folder).chain(&self.allowed);
         folders.filter_map(|folder| or_here(folder).canonicalize().ok()).any(|folder| file.starts_with(folder))
@@ -106,7 +102,7 @@ impl FolderAssets {
 }
 
 impl Assets for FolderAssets {
-    fn read(&self, relative: &str) -> Result<Vec<u8>, AssetError> {
+    fn read(&self, relative: &str, max_bytes: u64) -> Result<Vec<u8>, AssetError> {
         let path = or_here(&self.folder).join(relative);
         let file = match path.canonicalize() {
             Ok(file) => file,
@@ -118,18 +114,32 @@ impl Assets for FolderAssets {
         if !self.may_read(&file) {
             return Err(AssetError::Outside(file));
         }
-        // Opening a pipe would wait forever: look first.
-        if !std::fs::metadata(&file).map_err(AssetError::Io)?.is_file() {
-            return Err(AssetError::NotAFile);
-        }
-        let mut bytes = Vec::new();
-        let file = std::fs::File::open(&file).map_err(AssetError::Io)?;
-        file.take(self.max_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(AssetError::Io)?;
-        if bytes.len() as u64 > self.max_bytes {
-            return Err(AssetError::TooLarge(self.max_bytes));
-        }
-        Ok(bytes)
+        read_whole(&file, max_bytes)
     }
+}
+
+/// The bytes of the file at `path`, which may lie anywhere.
+pub(crate) fn read_whole(path: &Path, max_bytes: u64) -> Result<Vec<u8>, AssetError> {
+    // Opening a pipe would wait forever: look first.
+    let about = std::fs::metadata(path).map_err(AssetError::Io)?;
+    if !about.is_file() {
+        return Err(AssetError::NotAFile);
+    }
+    if about.len() > max_bytes {
+        return Err(AssetError::TooLarge(max_bytes));
+    }
+    let mut bytes = Vec::new();
+    // All at once, since growing would copy large files again and again; and where there is too little memory for that,
+    // a message is better than an abort.
+    let room = usize::try_from(about.len()).unwrap_or(usize::MAX).saturating_add(1);
+    bytes.try_reserve_exact(room).map_err(|_| AssetError::Io(io::ErrorKind::OutOfMemory.into()))?;
+    let file = std::fs::File::open(path).map_err(AssetError::Io)?;
+    // The file may grow while it is read. One byte more than allowed is enough to see that it is too many.
+    file.take(max_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(AssetError::Io)?;
+    if bytes.len() as u64 > max_bytes {
+        return Err(AssetError::TooLarge(max_bytes));
+    }
+    Ok(bytes)
 }
 
 /// The folder of a file without one is the current one.

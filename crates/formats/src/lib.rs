@@ -5,6 +5,7 @@
 //! definition of each field, in `native`.
 
 mod assets;
+mod data;
 mod diagnostics;
 mod models;
 mod native;
@@ -32,6 +33,12 @@ pub struct Limits {
     pub max_texels: u64,
     /// Bytes of one image file.
     pub max_image_bytes: u64,
+    /// Bytes of one model file, and of each of its parts.
+    pub max_model_bytes: u64,
+    /// Triangles of one model file.
+    pub max_triangles: u64,
+    /// Bytes of one file with a table of numbers.
+    pub max_data_bytes: u64,
     /// Diagnostics that are reported; the rest is counted.
     pub max_diagnostics: usize,
 }
@@ -45,6 +52,9 @@ impl Default for Limits {
             max_values: 5_000_000,
             max_texels: 256_000_000,
             max_image_bytes: 256 << 20,
+            max_model_bytes: 8 << 30,
+            max_triangles: 400_000_000,
+            max_data_bytes: 4 << 30,
             max_diagnostics: 50,
         }
     }
@@ -68,7 +78,8 @@ pub struct Loaded {
     pub warnings: Diagnostics,
 }
 
-/// Reads and checks the scene file at `path`; images are looked for in its folder.
+/// Reads and checks the scene file at `path`; files that it names are looked for in its folder. A model file, as its
+/// ending tells, becomes a scene that shows the model.
 ///
 /// # Errors
 ///
@@ -76,31 +87,38 @@ pub struct Loaded {
 pub fn load_file(path: impl AsRef<Path>, options: &LoadOptions) -> Result<Loaded, Diagnostics> {
     let path = path.as_ref();
     let name = path.display().to_string();
-    let bytes = read(path, options.limits.max_bytes).map_err(|message| {
-        let complaint = Complaint::error(Span::default(), message);
+    let bytes = match models::is_model_name(&name) {
+        true => assets::read_whole(path, options.limits.max_model_bytes).map_err(|error| error.to_string()),
+        false => read(path, options.limits.max_bytes),
+    };
+    let bytes = bytes.map_err(|message| {
+        let complaint = Complaint::error(Span::default(), format!("cannot read this file: {message}"));
         Diagnostics::new(vec![complaint], &name, "", 1)
     })?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let assets = FolderAssets::new(folder).max_bytes(options.limits.max_image_bytes);
+    let assets = FolderAssets::new(folder);
     let assets = options.allowed_folders.iter().fold(assets, FolderAssets::allow);
     load_bytes(&bytes, &name, &assets, &options.limits)
 }
 
 fn read(path: &Path, limit: u64) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
-    let file = std::fs::File::open(path).map_err(|error| format!("cannot read this file: {error}"))?;
+    let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
     // One byte more than allowed is enough to see that it is too many.
     let mut file = file.take(limit.saturating_add(1));
-    file.read_to_end(&mut bytes).map_err(|error| format!("cannot read this file: {error}"))?;
+    file.read_to_end(&mut bytes).map_err(|error| error.to_string())?;
     Ok(bytes)
 }
 
-/// Reads and checks the scene in `bytes`, which messages call `name`.
+/// Reads and checks the scene in `bytes`, which messages call `name`; or a model, if the name ends as those of models do.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with it; among it that it is not UTF-8.
+/// Everything that is wrong with it; among it that a scene is not UTF-8.
 pub fn load_bytes(bytes: &[u8], name: &str, assets: &dyn Assets, limits: &Limits) -> Result<Loaded, Diagnostics> {
+    if models::is_model_name(name) {
+        return models::load(bytes, name, assets, limits);
+    }
     match std::str::from_utf8(bytes) {
         Ok(text) => load_str(text, name, assets, limits),
         Err(error) => {

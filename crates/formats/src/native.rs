@@ -10,12 +10,17 @@ mod decode;
 mod file;
 mod hints;
 mod images;
+mod instances;
 mod lights;
+mod lists;
 mod materials;
+mod meshes;
+mod models;
 mod names;
 mod objects;
 mod paint;
 mod parse;
+mod particles;
 mod place;
 mod record;
 mod reference;
@@ -23,6 +28,7 @@ mod schema;
 mod settings;
 mod suggest;
 mod syntax;
+mod tables;
 mod textures;
 mod transform;
 pub(crate) mod tree;
@@ -60,6 +66,7 @@ fn load_tree(text: &str, assets: &dyn Assets, limits: &Limits) -> (Option<Checke
     let mut decoder = Decoder::new(assets, limits);
     decoder.complaints = complaints;
     file::read(&root, &mut decoder);
+    images::warn_of_ignored_alpha(&mut decoder);
     let checked = std::mem::take(&mut decoder.scene).check();
     let mut complaints = std::mem::take(&mut decoder.complaints);
     match checked {
@@ -109,8 +116,8 @@ mod tests {
     #[test]
     fn the_examples_of_the_reference_load() {
         let each = |kinds: Vec<KindAbout>, around: &dyn Fn(&str) -> String| {
-            // Images need a file.
-            let examples = kinds.iter().filter(|kind| kind.word != "image");
+            // These need a file.
+            let examples = kinds.iter().filter(|kind| !matches!(kind.word, "image" | "import"));
             examples.for_each(|kind| assert_loads(&around(kind.example)));
         };
         each(objects::kinds(), &|example| format!("objects:\n  - {example}"));

@@ -1,9 +1,9 @@
 //! Wrong scenes, each with the messages it must get, written at the lines where they must appear.
 //!
 //! After `#~` on a line stand `error:` or `warning:`, a part of the message and, after `|`, a part of the help or the
-//! label. Every diagnostic must be expected, and every expectation met.
+//! label. Every diagnostic must be expected, and every expectation met. Wrong files that scenes name are in `files/`.
 
-use durer_formats::{Diagnostic, Limits, NoAssets, load_str};
+use durer_formats::{Diagnostic, FolderAssets, Limits, load_str};
 use std::path::{Path, PathBuf};
 
 struct Expected {
@@ -37,7 +37,8 @@ fn meets(found: &Diagnostic, expected: &Expected) -> bool {
 fn check(path: &Path) -> Result<(), String> {
     let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let found = match load_str(&text, &name, &NoAssets, &Limits::default()) {
+    let assets = FolderAssets::new(path.parent().unwrap_or(Path::new("")));
+    let found = match load_str(&text, &name, &assets, &Limits::default()) {
         Ok(loaded) => loaded.warnings,
         Err(diagnostics) => diagnostics,
     };
@@ -60,6 +61,7 @@ fn check(path: &Path) -> Result<(), String> {
 fn wrong_scenes_get_their_messages() {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../tests/bad");
     let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|path| path.is_file());
     files.sort();
     assert!(files.len() >= 60, "only {} files", files.len());
     let failures: Vec<String> = files.iter().filter_map(|path| check(path).err()).collect();

@@ -1,6 +1,6 @@
 //! What is written reads back as the same scene, to the bit.
 
-use durer_formats::{AssetError, Assets, Limits, NoAssets, load_str, to_yaml};
+use durer_formats::{Assets, Limits, NoAssets, load_str, to_yaml};
 use durer_imaging::{DecodeLimits, Transfer, decode};
 use durer_math::{DVec2, DVec3, Rgb};
 use durer_scene::*;
@@ -8,20 +8,14 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use std::sync::Arc;
 
-/// One picture for all names.
-struct OnePicture;
+#[path = "roundtrip/many.rs"]
+mod many;
 
-impl Assets for OnePicture {
-    fn read(&self, _: &str) -> Result<Vec<u8>, AssetError> {
-        let mut bytes = b"PF\n2 1\n-1.0\n".to_vec();
-        (0..6).for_each(|i| bytes.extend((i as f32 / 8.0).to_le_bytes()));
-        Ok(bytes)
-    }
-}
+use many::{Files, PICTURE};
 
 #[track_caller]
 fn read(text: &str) -> Scene {
-    match load_str(text, "written.yaml", &OnePicture, &Limits::default()) {
+    match load_str(text, "written.yaml", &Files, &Limits::default()) {
         Ok(loaded) => loaded.scene.into_scene(),
         Err(diagnostics) => panic!("{diagnostics}\n{text}"),
     }
@@ -120,13 +114,26 @@ fn shape() -> BoxedStrategy<Shape> {
     .boxed()
 }
 
+/// An object of this kind, placed somehow.
+fn object_of(kind: BoxedStrategy<ObjectKind>, materials: u32) -> BoxedStrategy<Object> {
+    let material = prop::option::of((0..materials).prop_map(MaterialId));
+    (prop::option::of(text()), material, transform(), kind)
+        .prop_map(|(name, material, transform, kind)| Object { name, material, transform, kind })
+        .boxed()
+}
+
 fn object(materials: u32) -> BoxedStrategy<Object> {
-    let material = move || prop::option::of((0..materials).prop_map(MaterialId));
-    let placed = move |kind| (prop::option::of(text()), material(), transform(), kind);
-    let make = |(name, material, transform, kind)| Object { name, material, transform, kind };
-    let leaf = placed(shape().prop_map(ObjectKind::Shape).boxed()).prop_map(make);
+    let leaf = prop_oneof![
+        4 => shape().prop_map(ObjectKind::Shape),
+        1 => many::mesh(materials).prop_map(ObjectKind::Mesh),
+        1 => many::particles().prop_map(ObjectKind::Particles),
+        1 => many::solid(materials).prop_map(ObjectKind::Solid),
+    ];
+    let leaf = object_of(leaf.boxed(), materials);
     leaf.prop_recursive(3, 12, 4, move |inner| {
-        placed(vec(inner, 0..4).prop_map(ObjectKind::Group).boxed()).prop_map(make)
+        let group = vec(inner.clone(), 0..4).prop_map(ObjectKind::Group);
+        let copies = many::instances(inner.boxed(), materials).prop_map(ObjectKind::Instances);
+        object_of(prop_oneof![2 => group, 1 => copies].boxed(), materials)
     })
     .boxed()
 }
@@ -149,6 +156,7 @@ fn pattern(before: u32) -> BoxedStrategy<Pattern> {
     ];
     let filter = prop::sample::select(vec![Filter::Nearest, Filter::Bilinear]);
     let encoding = prop::sample::select(vec![Encoding::Srgb, Encoding::Linear]);
+    let channels = prop::sample::select(vec![Channels::Color, Channels::Alpha]);
     prop_oneof![
         (two(), size(), space()).prop_map(|(colors, size, space)| Pattern::Checker { colors, size, space }),
         (many(), direction(), size(), space()).prop_map(|(colors, axis, width, space)| Pattern::Stripes {
@@ -160,9 +168,11 @@ fn pattern(before: u32) -> BoxedStrategy<Pattern> {
         (many(), size(), space()).prop_map(|(colors, width, space)| Pattern::Rings { colors, width, space }),
         (many(), direction(), size(), wrap(), space())
             .prop_map(|(colors, axis, length, wrap, space)| Pattern::Gradient { colors, axis, length, wrap, space }),
-        (mapping, wrap(), filter, encoding).prop_map(|(mapping, wrap, filter, encoding)| {
-            Pattern::Image(ImageTexture { image: ImageId(0), mapping, wrap, filter, encoding })
-        }),
+        (mapping, wrap(), filter, encoding, channels, color()).prop_map(
+            |(mapping, wrap, filter, encoding, channels, tint)| {
+                Pattern::Image(ImageTexture { image: ImageId(0), mapping, wrap, filter, encoding, channels, tint })
+            }
+        ),
         (two(), size(), 1_u32..=16).prop_map(|(colors, size, octaves)| Pattern::Noise { colors, size, octaves }),
         (two(), size(), size(), 1_u32..=16).prop_map(|(colors, size, turbulence, octaves)| Pattern::Marble {
             colors,
@@ -185,8 +195,8 @@ fn material() -> BoxedStrategy<Material> {
         .prop_map(|(color, distance)| Attenuation { color: color.into(), distance });
     let parts = (paint(3), part(), part(), color(), 0_f32..500.0);
     let clear = (color(), color(), prop::option::of(0.5..2.5), any::<bool>(), prop::option::of(attenuation));
-    (parts, clear)
-        .prop_map(|((color, ambient, diffuse, specular, shininess), clear)| {
+    (parts, clear, (color(), paint(3)))
+        .prop_map(|((color, ambient, diffuse, specular, shininess), clear, (emission, opacity))| {
             let (reflection, transparency, ior, fresnel, attenuation) = clear;
             let name = None;
             Material {
@@ -201,6 +211,8 @@ fn material() -> BoxedStrategy<Material> {
                 ior,
                 fresnel,
                 attenuation,
+                emission,
+                opacity,
             }
         })
         .boxed()
@@ -287,8 +299,9 @@ fn scene() -> BoxedStrategy<Scene> {
     (settings(), textures, materials, vec(object(3), 0..4), [text(), text(), text()])
         .prop_map(|(settings, (a, b, c), materials, objects, names)| {
             let uses_image = [&a, &b, &c].iter().any(|(_, pattern)| matches!(pattern, Pattern::Image(_)));
-            let bitmap = || Arc::new(decode(&OnePicture.read("").unwrap(), &DecodeLimits::default()).unwrap());
-            let image = uses_image.then(|| ImageAsset { file: "a: picture.pfm".to_owned(), bitmap: bitmap() });
+            let bitmap =
+                || Arc::new(decode(&Files.read(PICTURE, u64::MAX).unwrap(), &DecodeLimits::default()).unwrap());
+            let image = uses_image.then(|| ImageAsset { file: PICTURE.to_owned(), bitmap: bitmap() });
             let name = |at: usize| Some(if at == 0 { names[0].clone() } else { format!("{} {at}", names[at]) });
             let name = |at| name(at).map(|name| if name == "<<" { String::new() } else { name });
             let textures = [a, b, c].into_iter().enumerate();

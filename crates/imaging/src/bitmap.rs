@@ -4,7 +4,7 @@ use durer_math::Rgb;
 
 use crate::{Image, Transfer};
 
-/// The pixels of a picture file, as stored: rows from the top, pixels from the left. Alpha is dropped (and said so).
+/// The pixels of a picture file, as stored: rows from the top, pixels from the left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bitmap {
     /// Width in pixels, at least 1.
@@ -13,8 +13,20 @@ pub struct Bitmap {
     pub height: u32,
     /// `width * height` colours.
     pub texels: Texels,
-    /// True if the file had an alpha channel that is not opaque everywhere; it was dropped.
-    pub alpha_dropped: bool,
+    /// How much of each pixel is there; `None` if all of all is.
+    pub alpha: Option<Alpha>,
+}
+
+/// An alpha channel, in the precision of the file: `width * height` numbers, which know no transfer curve. Colours are
+/// not multiplied by it nor divided; in most PNG they are without it, in most EXR with it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Alpha {
+    /// Of 255.
+    U8(Vec<u8>),
+    /// Of 65535.
+    U16(Vec<u16>),
+    /// Of 1.
+    F32(Vec<f32>),
 }
 
 /// Colours in the precision of the file.
@@ -26,6 +38,30 @@ pub enum Texels {
     U16(Vec<[u16; 3]>),
     /// Floating point: linear light, whatever the scene says of the file's encoding.
     F32(Vec<[f32; 3]>),
+}
+
+impl Alpha {
+    /// Number of pixels.
+    #[allow(clippy::len_without_is_empty)] // a picture has pixels
+    pub fn len(&self) -> usize {
+        match self {
+            Alpha::U8(numbers) => numbers.len(),
+            Alpha::U16(numbers) => numbers.len(),
+            Alpha::F32(numbers) => numbers.len(),
+        }
+    }
+
+    /// That of the pixel with this index: 0 where nothing is, 1 where all is.
+    ///
+    /// # Panics
+    /// If there is no such pixel.
+    pub fn get(&self, index: usize) -> f32 {
+        match self {
+            Alpha::U8(numbers) => f32::from(numbers[index]) / 255.0,
+            Alpha::U16(numbers) => f32::from(numbers[index]) / 65535.0,
+            Alpha::F32(numbers) => numbers[index],
+        }
+    }
 }
 
 impl Bitmap {
@@ -59,7 +95,7 @@ mod tests {
     use super::*;
 
     fn one(texels: Texels, transfer: Transfer) -> Rgb {
-        Bitmap { width: 1, height: 1, texels, alpha_dropped: false }.to_image(transfer).pixel(0, 0)
+        Bitmap { width: 1, height: 1, texels, alpha: None }.to_image(transfer).pixel(0, 0)
     }
 
     #[test]
@@ -75,6 +111,14 @@ mod tests {
         let texels = Texels::F32(vec![[0.5, -1.0, 7.0]]);
         assert_eq!(one(texels.clone(), Transfer::Srgb), Rgb::new(0.5, -1.0, 7.0));
         assert_eq!(one(texels, Transfer::Linear), Rgb::new(0.5, -1.0, 7.0));
+    }
+
+    #[test]
+    fn alpha_reaches_0_and_1_in_every_depth() {
+        for alpha in [Alpha::U8(vec![0, 255]), Alpha::U16(vec![0, 65535]), Alpha::F32(vec![0.0, 1.0])] {
+            assert_eq!((alpha.len(), alpha.get(0), alpha.get(1)), (2, 0.0, 1.0));
+        }
+        assert_eq!(Alpha::U8(vec![51]).get(0), 0.2);
     }
 
     #[test]

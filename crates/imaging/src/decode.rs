@@ -14,7 +14,7 @@ use crate::files::{exr, hdr, jpeg, pfm, png};
 pub struct DecodeLimits {
     /// The most pixels, width times height.
     pub max_pixels: u64,
-    /// The most bytes of decoded colours: 3, 6 or 12 for each pixel, by the file's precision.
+    /// The most bytes of decoded colours: 3, 6 or 12 for each pixel, by the file's precision; 4, 8 or 16 with alpha.
     pub max_bytes: u64,
 }
 

@@ -14,7 +14,7 @@ mod flip;
 mod image;
 mod quantize;
 
-pub use bitmap::{Bitmap, Texels};
+pub use bitmap::{Alpha, Bitmap, Texels};
 pub use color::{Transfer, linear_from_srgb, srgb_from_linear};
 pub use compare::{CompareError, Difference, compare};
 pub use decode::{DecodeError, DecodeLimits, decode};

@@ -1,6 +1,6 @@
 //! Kinds of files that we read but do not write.
 
-use durer_imaging::{Bitmap, DecodeLimits, Texels, decode};
+use durer_imaging::{Alpha, Bitmap, DecodeLimits, Texels, decode};
 use png::{BitDepth, ColorType};
 
 fn read(bytes: &[u8]) -> Bitmap {
@@ -43,12 +43,14 @@ fn gray_png_of_every_depth() {
 fn png_with_alpha() {
     let rgba = |data: &[u8]| png(2, ColorType::Rgba, BitDepth::Eight, data, None);
     let opaque = rgba(&[1, 2, 3, 255, 4, 5, 6, 255]);
-    assert_eq!((opaque.texels, opaque.alpha_dropped), (Texels::U8(vec![[1, 2, 3], [4, 5, 6]]), false));
-    assert!(rgba(&[1, 2, 3, 255, 4, 5, 6, 254]).alpha_dropped);
+    assert_eq!((opaque.texels, opaque.alpha), (Texels::U8(vec![[1, 2, 3], [4, 5, 6]]), None));
+    assert_eq!(rgba(&[1, 2, 3, 255, 4, 5, 6, 254]).alpha, Some(Alpha::U8(vec![255, 254])));
     let gray = png(1, ColorType::GrayscaleAlpha, BitDepth::Eight, &[9, 0], None);
-    assert_eq!((gray.texels, gray.alpha_dropped), (grays(&[9]), true));
+    assert_eq!((gray.texels, gray.alpha), (grays(&[9]), Some(Alpha::U8(vec![0]))));
     let deep = png(1, ColorType::Rgba, BitDepth::Sixteen, &[1, 2, 3, 4, 5, 6, 0xff, 0xff], None);
-    assert_eq!((deep.texels, deep.alpha_dropped), (Texels::U16(vec![[0x0102, 0x0304, 0x0506]]), false));
+    assert_eq!((deep.texels, deep.alpha), (Texels::U16(vec![[0x0102, 0x0304, 0x0506]]), None));
+    let deep = png(1, ColorType::GrayscaleAlpha, BitDepth::Sixteen, &[1, 2, 3, 4], None);
+    assert_eq!(deep.alpha, Some(Alpha::U16(vec![0x0304])));
 }
 
 #[test]
@@ -57,8 +59,9 @@ fn png_with_a_palette() {
     let palette = |data: &[u8], alphas: &[u8]| png(3, ColorType::Indexed, BitDepth::Two, data, Some((&colors, alphas)));
     let opaque = palette(&[0b01_00_01_00], &[255, 255]);
     let expected = Texels::U8(vec![[40, 50, 60], [10, 20, 30], [40, 50, 60]]);
-    assert_eq!((opaque.texels, opaque.alpha_dropped), (expected, false));
-    assert!(palette(&[0b01_00_01_00], &[0, 255]).alpha_dropped);
+    assert_eq!((opaque.texels, opaque.alpha), (expected, None));
+    let clear = palette(&[0b01_00_01_00], &[7, 255]);
+    assert_eq!(clear.alpha, Some(Alpha::U8(vec![255, 7, 255])));
 }
 
 #[test]
@@ -105,7 +108,9 @@ fn exr_of_luminance_and_alpha() {
         bytes.into_inner()
     };
     let gray = read(&write(vec![channel("Y", &[0.5, 7.0]), channel("A", &[1.0, 0.5])]));
-    assert_eq!((gray.texels, gray.alpha_dropped), (Texels::F32(vec![[0.5; 3], [7.0; 3]]), true));
+    assert_eq!((gray.texels, gray.alpha), (Texels::F32(vec![[0.5; 3], [7.0; 3]]), Some(Alpha::F32(vec![1.0, 0.5]))));
+    let opaque = read(&write(vec![channel("Y", &[0.5, 7.0]), channel("A", &[1.0, 1.0])]));
+    assert_eq!(opaque.alpha, None);
     let depth = decode(&write(vec![channel("Z", &[1.0, 2.0])]), &DecodeLimits::default()).unwrap_err();
     assert_eq!(depth.to_string(), "EXR with no flat channels R, G and B cannot be read");
 }

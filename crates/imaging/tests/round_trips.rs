@@ -25,14 +25,14 @@ fn round_trip(image: &Image, options: &EncodeOptions) -> Image {
     let bytes = encode(image, options).unwrap();
     assert_eq!(bytes, encode(image, options).unwrap(), "the same picture must give the same bytes");
     let bitmap = read(&bytes);
-    assert!(!bitmap.alpha_dropped);
+    assert_eq!(bitmap.alpha, None);
     bitmap.to_image(options.transfer)
 }
 
 #[test]
 fn every_8_bit_number_survives_png() {
     let texels: Vec<[u8; 3]> = (0..=255).map(|v: u8| [v, 255 - v, v / 2]).collect();
-    let bitmap = Bitmap { width: 16, height: 16, texels: Texels::U8(texels), alpha_dropped: false };
+    let bitmap = Bitmap { width: 16, height: 16, texels: Texels::U8(texels), alpha: None };
     for transfer in [Transfer::Srgb, Transfer::Linear] {
         let bytes = write_png(PngDepth::Eight, transfer, &bitmap.to_image(transfer));
         assert_eq!(read(&bytes), bitmap, "{transfer:?}");
@@ -42,7 +42,7 @@ fn every_8_bit_number_survives_png() {
 #[test]
 fn every_16_bit_number_survives_png() {
     let texels: Vec<[u16; 3]> = (0..=65535).map(|v: u16| [v, 65535 - v, v / 3]).collect();
-    let bitmap = Bitmap { width: 256, height: 256, texels: Texels::U16(texels), alpha_dropped: false };
+    let bitmap = Bitmap { width: 256, height: 256, texels: Texels::U16(texels), alpha: None };
     for transfer in [Transfer::Srgb, Transfer::Linear] {
         let bytes = write_png(PngDepth::Sixteen, transfer, &bitmap.to_image(transfer));
         assert_eq!(read(&bytes), bitmap, "{transfer:?}");

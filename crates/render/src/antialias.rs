@@ -23,6 +23,10 @@ pub(crate) trait Samples {
 
 /// A way to make a pixel from samples.
 pub(crate) trait Antialias: Sync {
+    /// The points of the pixel whose upper left corner is at `corner` that are sampled whatever is seen there, in the order
+    /// in which [`Antialias::pixel`] takes them, and before all others.
+    fn certain(&self, corner: DVec2, points: &mut Vec<DVec2>);
+
     /// Samples the pixel whose upper left corner is at `corner`, in pixels.
     fn pixel(&self, corner: DVec2, samples: &mut impl Samples);
 }

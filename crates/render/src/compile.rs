@@ -1,27 +1,42 @@
 //! From a checked scene to flat arrays: what the integrators read.
 
+mod contents;
+mod imports;
+mod looks;
+mod shapes;
+mod tree;
+
 use crate::camera::Camera;
 use crate::fog::Fog;
 use crate::lights::Light;
 use crate::materials::Material;
 use crate::textures::Textures;
-use durer_geometry::{Bounds, Primitive, Vantage, World};
-use durer_math::{DAffine3, DVec2, Rgb};
-use durer_scene::{Background, CheckedScene, MaterialId, Object, ObjectKind, Picture, RenderSettings, Scene, Shape};
+use contents::Contents;
+use durer_geometry::{Bounds, Hit, Mesh, Vantage, World};
+use durer_math::Rgb;
+use durer_scene::{Background, CheckedScene, Picture, RenderSettings, Scene};
+use imports::Brought;
+use looks::Details;
+use rayon::prelude::*;
+use std::sync::Arc;
+use tree::Tree;
 
-/// Seen by all rays that look for something opaque.
-pub(crate) const OPAQUE: u32 = 1;
-/// Seen by all rays that look for something that light may pass.
-pub(crate) const CLEAR: u32 = 2;
+pub(crate) use looks::{CLEAR, Colors, OPAQUE, PlacedObject};
 
 /// A scene ready for rays. Immutable; threads share it.
 #[derive(Debug)]
 pub struct CompiledScene {
     pub(crate) world: World,
-    /// One for each primitive, in the same order: that of the shapes in the scene file, depth first.
+    /// One for each primitive, in the same order: that of the shapes in the scene file, depth first, copy by copy.
     pub(crate) objects: Vec<PlacedObject>,
+    /// What differs within primitives.
+    details: Vec<Details>,
+    /// All meshes, whose lists and trees instances share.
+    meshes: Vec<Arc<Mesh>>,
+    /// The scene's, and after them the default material.
     pub(crate) materials: Vec<Material>,
     pub(crate) textures: Textures,
+    /// The scene's, and after them those that imported files bring.
     pub(crate) lights: Vec<Light>,
     /// For each light that shines from a point, what is seen from there.
     pub(crate) light_vantages: Vec<Option<Vantage>>,
@@ -33,42 +48,57 @@ pub struct CompiledScene {
     pub(crate) fog: Option<Fog>,
     pub(crate) picture: Picture,
     pub(crate) settings: RenderSettings,
-    /// True if the eye's rays may start inside of a medium.
-    pub(crate) eye_in_medium: bool,
-    /// Primitives that are filled with a medium.
-    pub(crate) media: Vec<u32>,
+    /// Primitives filled with a medium that the eye's rays may start inside of.
+    pub(crate) media_at_eye: Vec<u32>,
     /// True if some medium takes light away.
     pub(crate) attenuates: bool,
+    /// True if some surface may have holes.
+    pub(crate) has_holes: bool,
 }
 
-/// What shading needs to know of a primitive.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PlacedObject {
-    pub(crate) material: u32,
-    /// True if it is filled with a medium: it has an inside, and what is there bends light or takes it away.
-    pub(crate) is_medium: bool,
-    /// From the world to the space in which the user described the shape; `None` where they are the same.
-    pub(crate) object_from_world: Option<DAffine3>,
+/// Bytes that geometry takes, and for how much of what. What instances share is counted once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct GeometryMemory {
+    /// Of primitives, the tree over them, and what is known of each of them; without what is counted below.
+    pub shapes: usize,
+    /// Of the trees of meshes and the triangles in them.
+    pub meshes: usize,
+    /// Triangles of meshes.
+    pub triangles: usize,
 }
 
-/// Makes a scene ready for rays: places every shape, builds the search structures.
+impl GeometryMemory {
+    /// All of it.
+    pub fn total(&self) -> usize {
+        self.shapes + self.meshes
+    }
+}
+
+/// Makes a scene ready for rays: places every shape, builds the search structures. Uses the threads of the rayon pool that
+/// it is called in (see [`with_threads`](crate::with_threads)); what it makes does not depend on their number.
 pub fn compile(scene: &CheckedScene) -> CompiledScene {
     let scene = scene.scene();
-    let mut compiler = Compiler::new(scene);
-    for object in &scene.objects {
-        compiler.add(object, &DAffine3::IDENTITY, None);
-    }
-    let Compiler { primitives, objects, materials, .. } = compiler;
-    let media: Vec<u32> = (0..objects.len() as u32).filter(|&id| objects[id as usize].is_medium).collect();
-    let attenuates = media.iter().any(|&id| materials[objects[id as usize].material as usize].attenuation.is_some());
+    let materials = materials(scene);
+    let contents = Contents::of(&scene.objects);
+    let tree = Tree::new(&scene.objects, &contents, &materials);
+    let (mut primitives, mut objects) = (Vec::new(), Vec::new());
+    (0..tree.len()).into_par_iter().map(|index| tree.place(index)).unzip_into_vecs(&mut primitives, &mut objects);
+    let details = tree.details;
     let world = World::build(primitives);
+    let Brought { lights: brought, camera: brought_camera } = Brought::by(&scene.objects);
+    let lights: Vec<Light> = scene.lights.iter().chain(&brought).map(Light::compile).collect();
     let Picture { width, height, .. } = scene.picture;
-    let camera = Camera::compile(scene.camera.as_ref(), world.bounds(), width, height);
-    let lights: Vec<Light> = scene.lights.iter().map(Light::compile).collect();
+    let camera = scene.camera.as_ref().or(brought_camera.as_ref());
+    let camera = Camera::compile(camera, world.bounds(), width, height);
+    let is_medium = |id: &u32| objects[*id as usize].looks.is_medium;
+    let media: Vec<u32> = (0..objects.len() as u32).filter(is_medium).collect();
+    let attenuation = |id: &u32| materials[objects[*id as usize].looks.material as usize].attenuation;
     CompiledScene {
-        eye_in_medium: match camera.eye() {
-            Some(eye) => media.iter().any(|&id| world.primitives()[id as usize].contains(eye)),
-            None => !media.is_empty(),
+        attenuates: media.iter().any(|id| attenuation(id).is_some()),
+        has_holes: objects.iter().any(|object: &PlacedObject| object.looks.has_holes),
+        media_at_eye: match camera.eye() {
+            Some(eye) => media.into_iter().filter(|&id| world.primitives()[id as usize].contains(eye)).collect(),
+            None => media,
         },
         eye_vantage: camera.eye().and_then(|eye| world.vantage(eye)),
         camera,
@@ -76,16 +106,22 @@ pub fn compile(scene: &CheckedScene) -> CompiledScene {
         lights,
         world,
         objects,
-        materials,
+        details,
+        meshes: contents.meshes,
         textures: Textures::compile(scene),
+        materials,
         background: scene.background,
         ambient: scene.ambient,
         fog: scene.fog.as_ref().map(Fog::compile),
         picture: scene.picture,
         settings: scene.render,
-        media,
-        attenuates,
     }
+}
+
+/// The scene's, and after them the default material.
+fn materials(scene: &Scene) -> Vec<Material> {
+    let default = durer_scene::Material::default();
+    scene.materials.iter().chain([&default]).map(Material::compile).collect()
 }
 
 /// Vantages take time and room to make; with more lights than this, only the first get one.
@@ -102,18 +138,39 @@ impl CompiledScene {
         self.world.bounds()
     }
 
-    /// Bytes held by the shapes and their search structures.
-    pub fn geometry_memory(&self) -> usize {
-        self.world.memory() + size_of_val(self.objects.as_slice())
+    /// Bytes that geometry takes.
+    pub fn geometry_memory(&self) -> GeometryMemory {
+        let placed = |object: &PlacedObject| {
+            size_of::<PlacedObject>() + object.object_from_world.as_deref().map_or(0, size_of_val)
+        };
+        GeometryMemory {
+            shapes: self.world.memory() + self.objects.iter().map(placed).sum::<usize>(),
+            meshes: self.meshes.iter().map(|mesh| mesh.memory()).sum(),
+            triangles: self.meshes.iter().map(|mesh| mesh.source().triangles().len()).sum(),
+        }
     }
 
-    /// The material of a primitive.
+    /// The material of a primitive, or of what it is filled with.
     #[inline]
     pub(crate) fn material(&self, primitive: u32) -> &Material {
-        &self.materials[self.objects[primitive as usize].material as usize]
+        &self.materials[self.objects[primitive as usize].looks.material as usize]
     }
 
-    /// Number of shapes.
+    /// The index of the material at a hit.
+    #[inline]
+    pub(crate) fn material_at(&self, hit: &Hit) -> u32 {
+        let looks = &self.objects[hit.primitive as usize].looks;
+        let of_part = |details: u32| self.details[details as usize].material(hit.crossing.part);
+        looks.details().and_then(of_part).unwrap_or(looks.material)
+    }
+
+    /// The colours of a primitive's own.
+    #[inline]
+    pub(crate) fn colors(&self, details: u32) -> &Colors {
+        &self.details[details as usize].colors
+    }
+
+    /// Number of shapes; every copy counts.
     pub fn shape_count(&self) -> usize {
         self.objects.len()
     }
@@ -121,70 +178,5 @@ impl CompiledScene {
     /// Width and height of the picture, in pixels.
     pub fn picture_size(&self) -> (u32, u32) {
         (self.picture.width, self.picture.height)
-    }
-}
-
-struct Compiler {
-    primitives: Vec<Primitive>,
-    objects: Vec<PlacedObject>,
-    /// The scene's, and after them the default material.
-    materials: Vec<Material>,
-}
-
-impl Compiler {
-    fn new(scene: &Scene) -> Compiler {
-        let default = durer_scene::Material::default();
-        let materials = scene.materials.iter().chain([&default]).map(Material::compile).collect();
-        Compiler { primitives: Vec::new(), objects: Vec::new(), materials }
-    }
-
-    fn add(&mut self, object: &Object, world_from_parent: &DAffine3, inherited: Option<MaterialId>) {
-        let world_from_object = *world_from_parent * object.transform.to_affine();
-        let material = object.material.or(inherited);
-        match &object.kind {
-            ObjectKind::Group(children) => {
-                for child in children {
-                    self.add(child, &world_from_object, material);
-                }
-            }
-            ObjectKind::Mesh(_)
-            | ObjectKind::Particles(_)
-            | ObjectKind::Instances(_)
-            | ObjectKind::Import(_)
-            | ObjectKind::Solid(_) => todo!(),
-            ObjectKind::Shape(shape) => {
-                let material = material.map_or(self.materials.len() as u32 - 1, |id| id.0);
-                let mut primitive = place(shape, &world_from_object);
-                primitive.mask = if self.materials[material as usize].is_clear() { CLEAR } else { OPAQUE };
-                self.primitives.push(primitive);
-                let identity = world_from_object == DAffine3::IDENTITY;
-                let object_from_world = (!identity).then(|| world_from_object.inverse());
-                let is_medium = shape.is_closed() && self.materials[material as usize].fills_with_medium();
-                self.objects.push(PlacedObject { material, is_medium, object_from_world });
-            }
-        }
-    }
-}
-
-/// The shape as geometry knows it, in the world.
-fn place(shape: &Shape, world: &DAffine3) -> Primitive {
-    match *shape {
-        Shape::Plane { point, normal } => Primitive::plane(point, normal, world),
-        Shape::Sphere { center, radius } => Primitive::sphere(center, radius, world),
-        Shape::Box { min, max } => Primitive::cuboid(min, max, world),
-        Shape::Cylinder { base, top, radius, open } => Primitive::cylinder(base, top, radius, open, world),
-        Shape::Cone { base, top, base_radius, top_radius, open } => {
-            Primitive::cone(base, top, [base_radius, top_radius], open, world)
-        }
-        Shape::Disc { center, normal, radius, inner_radius } => {
-            Primitive::disc(center, normal, [inner_radius, radius], world)
-        }
-        Shape::Rectangle { corner, edges } => Primitive::rectangle(corner, edges, world),
-        Shape::Triangle { vertices, uvs } => {
-            Primitive::triangle(vertices, uvs.unwrap_or([DVec2::ZERO, DVec2::X, DVec2::Y]), world)
-        }
-        Shape::Torus { center, axis, radius, tube_radius } => {
-            Primitive::torus(center, axis, [radius, tube_radius], world)
-        }
     }
 }

@@ -5,8 +5,9 @@ use crate::compile::CompiledScene;
 use crate::integrators::whitted::Whitted;
 use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Source, SurfaceSeen};
 use crate::pixel::{SampleObserver, render_pixel};
-use durer_geometry::Ray;
+use durer_geometry::{Hit, Ray, Surface};
 use durer_math::{DVec2, DVec3, Rgb};
+use durer_scene::MaterialId;
 
 /// How a pixel got its colour: the sum of the colours of its kept samples, each times its weight, in this order.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +48,8 @@ pub struct RayExplanation {
     pub direction: DVec3,
     /// What light at its start counts in the sample.
     pub weight: Rgb,
+    /// Surfaces that it went through a hole of before that, in order.
+    pub holes: Vec<HoleExplanation>,
     /// What it met; `None` for the background.
     pub hit: Option<HitExplanation>,
     /// The lights, as seen from there.
@@ -62,18 +65,51 @@ pub struct RayExplanation {
 /// Where a ray met a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HitExplanation {
-    /// Index of the shape, counting the shapes of the scene file from 0, depth first.
+    /// Index of the shape, counting the shapes of the scene file from 0, depth first, those of instances copy by copy.
     pub shape: usize,
+    /// Which of the things that the shape consists of was hit.
+    pub element: Element,
     /// Distance along the ray.
     pub distance: f64,
     /// The point, in world space.
     pub point: DVec3,
     /// The surface's outward unit normal.
     pub normal: DVec3,
+    /// The unit normal of shading, on the side that the ray came from.
+    pub shading_normal: DVec3,
     /// True if the ray came from the side that the normal points to.
     pub from_outside: bool,
-    /// The colour of the texture there.
+    /// The surface's material, in the scene's list; `None` for the default material.
+    pub material: Option<MaterialId>,
+    /// The colour there.
     pub color: Rgb,
+    /// How much of the surface is there: white unless its material has an opacity.
+    pub opacity: Rgb,
+}
+
+/// Where a ray went through a hole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HoleExplanation {
+    /// Index of the shape that has the hole.
+    pub shape: usize,
+    /// Which of the things that the shape consists of has it.
+    pub element: Element,
+    /// Distance along the ray.
+    pub distance: f64,
+}
+
+/// One of the things that a shape consists of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Element {
+    /// One of the surfaces of an exact shape: a face of a box, the side or a cap of a cylinder. Their order is the shape's own.
+    Face(u32),
+    /// A triangle of a mesh.
+    Triangle {
+        /// Counted from 0.
+        index: u32,
+        /// The weights of its three vertices at the point that was hit.
+        weights: [f64; 3],
+    },
 }
 
 /// A light as seen from a hit.
@@ -114,21 +150,21 @@ pub fn explain(scene: &CompiledScene, x: u32, y: u32) -> Option<PixelExplanation
 }
 
 fn explain_with<A: Antialias>(scene: &CompiledScene, antialias: &A, x: u32, y: u32) -> PixelExplanation {
-    let mut recorder = Recorder::default();
-    let pixel = render_pixel(scene, (&Whitted, antialias), (x, y), &mut recorder);
+    let mut recorder = Recorder { scene, samples: Vec::new(), at: DVec2::ZERO, open: Vec::new() };
+    let pixel = render_pixel(scene, (&Whitted, antialias), (x, y), &[], &mut recorder);
     PixelExplanation { x, y, color: pixel.color, samples: recorder.samples }
 }
 
 /// Writes down what it is told.
-#[derive(Default)]
-struct Recorder {
+struct Recorder<'s> {
+    scene: &'s CompiledScene,
     samples: Vec<SampleExplanation>,
     at: DVec2,
     /// The ray being traced, and those that led to it.
     open: Vec<RayExplanation>,
 }
 
-impl SampleObserver for Recorder {
+impl SampleObserver for Recorder<'_> {
     fn sample_begins(&mut self, at: DVec2) {
         self.at = at;
     }
@@ -141,7 +177,7 @@ impl SampleObserver for Recorder {
     }
 }
 
-impl Observer for Recorder {
+impl Observer for Recorder<'_> {
     fn ray_begins(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb) {
         let Ray { origin, direction } = *ray;
         self.open.push(RayExplanation {
@@ -150,6 +186,7 @@ impl Observer for Recorder {
             origin,
             direction,
             weight,
+            holes: Vec::new(),
             hit: None,
             lights: Vec::new(),
             contributions: Vec::new(),
@@ -158,17 +195,26 @@ impl Observer for Recorder {
         });
     }
 
+    fn hole(&mut self, hit: &Hit, surface: &Surface, length: f64) {
+        let element = self.element(hit, surface);
+        let hole = HoleExplanation { shape: hit.primitive as usize, element, distance: length };
+        self.with_ray(|ray| ray.holes.push(hole));
+    }
+
     fn surface(&mut self, seen: &SurfaceSeen) {
-        self.with_ray(|ray| {
-            ray.hit = Some(HitExplanation {
-                shape: seen.hit.primitive as usize,
-                distance: seen.hit.crossing.t,
-                point: seen.surface.point,
-                normal: seen.surface.normal,
-                from_outside: seen.from_outside,
-                color: seen.color,
-            });
-        });
+        let hit = HitExplanation {
+            shape: seen.hit.primitive as usize,
+            element: self.element(&seen.hit, &seen.surface),
+            distance: seen.length,
+            point: seen.surface.point,
+            normal: seen.surface.normal,
+            shading_normal: seen.normal,
+            from_outside: seen.from_outside,
+            material: self.material(&seen.hit),
+            color: seen.color,
+            opacity: seen.opacity,
+        };
+        self.with_ray(|ray| ray.hit = Some(hit));
     }
 
     fn light(&mut self, seen: &LightSeen) {
@@ -196,7 +242,22 @@ impl Observer for Recorder {
     }
 }
 
-impl Recorder {
+impl Recorder<'_> {
+    /// What was hit of a shape.
+    fn element(&self, hit: &Hit, surface: &Surface) -> Element {
+        let index = hit.crossing.part;
+        match self.scene.world.vertex_weights(surface.point, hit) {
+            Some(weights) => Element::Triangle { index, weights },
+            None => Element::Face(index),
+        }
+    }
+
+    fn material(&self, hit: &Hit) -> Option<MaterialId> {
+        let id = self.scene.material_at(hit);
+        // The last one is not the scene's.
+        (id as usize + 1 < self.scene.materials.len()).then_some(MaterialId(id))
+    }
+
     fn with_ray(&mut self, write: impl FnOnce(&mut RayExplanation)) {
         if let Some(ray) = self.open.last_mut() {
             write(ray);

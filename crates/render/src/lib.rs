@@ -8,7 +8,10 @@ mod camera;
 mod compile;
 mod explain;
 mod film;
+mod first_hits;
 mod fog;
+mod heatmap;
+mod holes;
 mod integrators;
 mod lights;
 mod materials;
@@ -20,11 +23,13 @@ mod shading;
 mod textures;
 mod visibility;
 
-pub use compile::{CompiledScene, compile};
+pub use compile::{CompiledScene, GeometryMemory, compile};
 pub use durer_geometry::Bounds;
 pub use explain::{
-    Contribution, HitExplanation, LightExplanation, PixelExplanation, RayExplanation, SampleExplanation, explain,
+    Contribution, Element, HitExplanation, HoleExplanation, LightExplanation, PixelExplanation, RayExplanation,
+    SampleExplanation, explain,
 };
 pub use film::{Film, Region};
+pub use heatmap::{HeatMap, heatmap};
 pub use observer::{NotTraced, RayCounts, RayKind, Source};
-pub use schedule::{Progress, RenderError, RenderOptions, render};
+pub use schedule::{Progress, RenderError, RenderOptions, render, with_threads};

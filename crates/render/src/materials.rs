@@ -17,13 +17,19 @@ pub(crate) struct Material {
     pub(crate) fresnel: bool,
     /// What light loses inside, per unit of length, as the exponent of e (Beer–Lambert), negative.
     pub(crate) attenuation: Option<Rgb>,
+    /// Light that the surface gives off by itself.
+    pub(crate) emission: Rgb,
+    /// How much of the surface is there; `None` if all of it is, everywhere.
+    pub(crate) opacity: Option<Paint>,
+    /// What passes of light where no texture decides about that.
+    pub(crate) passed_if_even: Rgb,
 }
 
 impl Material {
     pub(crate) fn compile(material: &durer_scene::Material) -> Material {
         let exponent =
             |a: &durer_scene::Attenuation| a.color.map(|c| (functions::ln(f64::from(c)) / a.distance) as f32);
-        Material {
+        let mut compiled = Material {
             color: material.color,
             ambient: material.ambient,
             diffuse: material.diffuse,
@@ -34,12 +40,34 @@ impl Material {
             ior: material.ior,
             fresnel: material.fresnel,
             attenuation: material.attenuation.as_ref().map(exponent),
+            emission: material.emission,
+            opacity: Some(material.opacity).filter(|opacity| *opacity != Paint::Color(Rgb::WHITE)),
+            passed_if_even: material.transparency,
+        };
+        if let Some(Paint::Color(opacity)) = compiled.opacity {
+            compiled.passed_if_even = compiled.passed(opacity);
         }
+        compiled
     }
 
     /// True if some light gets through.
     pub(crate) fn is_clear(&self) -> bool {
         !self.transparency.is_black()
+    }
+
+    /// True if light gets past the surface: through it, or where it is not there.
+    pub(crate) fn lets_light_pass(&self) -> bool {
+        self.is_clear() || self.opacity.is_some()
+    }
+
+    /// What passes of light where so much of the surface is there: what goes through that, and what goes beside it.
+    pub(crate) fn passed(&self, opacity: Rgb) -> Rgb {
+        self.transparency * opacity + (Rgb::WHITE - opacity)
+    }
+
+    /// True if a texture decides about colour or opacity.
+    pub(crate) fn is_textured(&self) -> bool {
+        matches!(self.color, Paint::Texture(_)) || matches!(self.opacity, Some(Paint::Texture(_)))
     }
 
     /// True if what a closed shape of it encloses bends light or takes it away.
@@ -91,6 +119,28 @@ pub(crate) fn refract(direction: DVec3, normal: DVec3, eta: f64) -> Option<Refra
         direction: (direction * eta + normal * (eta * cos_i - cos_t)).normalize(),
         reflectance: 0.5 * (parallel * parallel + perpendicular * perpendicular),
     })
+}
+
+/// `direction` if it is on the side of `face` that `wanted` says, else its mirror image at the surface.
+///
+/// A shading normal that leans away from the true one may send light through a surface that reflects it, or back from one
+/// that lets it pass. Folding it over changes nothing where the two sides meet, so there is no seam.
+pub(crate) fn on_side(direction: DVec3, face: DVec3, wanted: Side) -> DVec3 {
+    let height = direction.dot(face);
+    let is_right = match wanted {
+        Side::Front => height >= 0.0,
+        Side::Back => height <= 0.0,
+    };
+    if is_right { direction } else { direction - face * (2.0 * height) }
+}
+
+/// A side of a surface, as seen from where a ray comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    /// That of the ray.
+    Front,
+    /// The other one.
+    Back,
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 //! for the ray until the others are left, too.
 
 use crate::compile::CompiledScene;
-use durer_geometry::Ray;
+use durer_geometry::{Primitive, Ray};
 use durer_math::Rgb;
 
 /// The media around a point on a ray's path, outermost first, as primitives' indices.
@@ -27,11 +27,10 @@ impl Media {
     pub(crate) fn around(scene: &CompiledScene, ray: &Ray) -> Media {
         let primitives = scene.world.primitives();
         let mut exits: Vec<(f64, u32)> = Vec::new();
-        for &id in &scene.media {
+        for &id in &scene.media_at_eye {
             let primitive = &primitives[id as usize];
             if primitive.contains(ray.origin) {
-                let exit = primitive.intersect(ray, f64::INFINITY).map_or(f64::INFINITY, |c| c.t);
-                exits.push((exit, id));
+                exits.extend(exits_from(primitive, ray).into_iter().map(|exit| (exit, id)));
             }
         }
         exits.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -78,6 +77,25 @@ impl Media {
             None => Rgb::WHITE,
         }
     }
+}
+
+/// Where a ray that starts inside of a primitive leaves it: at several places if it is a set of things that overlap and
+/// the ray starts inside of several of them.
+fn exits_from(primitive: &Primitive, ray: &Ray) -> Vec<f64> {
+    let (mut exits, mut entered, mut length) = (Vec::new(), 0, 0.0);
+    let _ = primitive.each_crossing(ray, f64::INFINITY, |ray, crossing, surface| {
+        length += crossing.t;
+        if ray.direction.dot(surface.normal) < 0.0 {
+            entered += 1;
+        } else if entered > 0 {
+            entered -= 1;
+        } else {
+            exits.push(length);
+        }
+        false
+    });
+    // Half of space is never left by a ray that goes on into it.
+    if exits.is_empty() { vec![f64::INFINITY] } else { exits }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 //! `render` did. For an observer that ignores an event the compiler removes the call.
 
 use durer_geometry::{Hit, Ray, Surface};
-use durer_math::Rgb;
+use durer_math::{DVec3, Rgb};
 
 /// Why a ray is traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +24,8 @@ pub enum Source {
     Fog,
     /// The background.
     Background,
+    /// What a surface gives off by itself.
+    Emission,
     /// Ambient light given back by a surface.
     Ambient,
     /// The light with this index, given back in all directions.
@@ -45,9 +47,15 @@ pub enum NotTraced {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfaceSeen {
     pub(crate) hit: Hit,
+    /// From where the ray began to the hit.
+    pub(crate) length: f64,
     pub(crate) surface: Surface,
-    /// The colour of the texture there.
+    /// The normal of shading, on the side that the ray came from.
+    pub(crate) normal: DVec3,
+    /// The colour there.
     pub(crate) color: Rgb,
+    /// How much of the surface is there.
+    pub(crate) opacity: Rgb,
     /// True if the ray came from the side that the normal points to.
     pub(crate) from_outside: bool,
 }
@@ -67,6 +75,8 @@ pub(crate) struct LightSeen {
 /// Told what an integrator does. Rays nest: between `ray_begins` and `ray_ends` of one come those of its children.
 pub(crate) trait Observer {
     fn ray_begins(&mut self, _kind: RayKind, _depth: u32, _ray: &Ray, _weight: Rgb) {}
+    /// The ray passes a hole of a surface, so far from where it began.
+    fn hole(&mut self, _hit: &Hit, _surface: &Surface, _length: f64) {}
     fn surface(&mut self, _seen: &SurfaceSeen) {}
     fn light(&mut self, _seen: &LightSeen) {}
     fn shadow_ray(&mut self) {}

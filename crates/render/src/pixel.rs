@@ -2,8 +2,10 @@
 
 use crate::antialias::{Antialias, Sample, Samples};
 use crate::compile::CompiledScene;
+use crate::holes::Known;
 use crate::integrators::Integrator;
 use crate::observer::Observer;
+use durer_geometry::Hit;
 use durer_math::{DVec2, Rgb};
 
 /// A pixel's colour, and how many of its samples were not finite and count as black.
@@ -21,16 +23,17 @@ pub(crate) trait SampleObserver: Observer {
 
 impl SampleObserver for crate::observer::RayCounts {}
 
-/// Renders the pixel at column `x`, row `y`.
+/// Renders the pixel at column `x`, row `y`. `first_hits` are those of the first rays that it takes, as many as are known.
 #[inline]
 pub(crate) fn render_pixel<I: Integrator, A: Antialias, O: SampleObserver>(
     scene: &CompiledScene,
     (integrator, antialias): (&I, &A),
     (x, y): (u32, u32),
+    first_hits: &[Option<Hit>],
     observer: &mut O,
 ) -> Pixel {
     let pixel = Pixel { color: Rgb::BLACK, bad_samples: 0 };
-    let mut gathered = Gathered { scene, integrator, observer, taken: 0, pixel };
+    let mut gathered = Gathered { scene, integrator, observer, first_hits, taken: 0, pixel };
     antialias.pixel(DVec2::new(f64::from(x), f64::from(y)), &mut gathered);
     gathered.pixel
 }
@@ -40,6 +43,7 @@ struct Gathered<'a, I, O> {
     scene: &'a CompiledScene,
     integrator: &'a I,
     observer: &'a mut O,
+    first_hits: &'a [Option<Hit>],
     taken: u32,
     pixel: Pixel,
 }
@@ -47,7 +51,12 @@ struct Gathered<'a, I, O> {
 impl<I: Integrator, O: SampleObserver> Samples for Gathered<'_, I, O> {
     fn take(&mut self, at: DVec2) -> Sample {
         self.observer.sample_begins(at);
-        let mut color = self.integrator.radiance(self.scene, &self.scene.camera.ray(at), self.observer);
+        let known = match (self.first_hits.get(self.taken as usize), &self.scene.eye_vantage) {
+            (Some(&hit), _) => Known::Hit(hit),
+            (None, Some(vantage)) => Known::Vantage(vantage),
+            (None, None) => Known::Nothing,
+        };
+        let mut color = self.integrator.radiance(self.scene, &self.scene.camera.ray(at), known, self.observer);
         if !color.is_finite() {
             self.pixel.bad_samples += 1;
             color = Rgb::BLACK;

@@ -3,6 +3,7 @@
 use crate::antialias::{Antialias, grid::Grid, recursive::Recursive};
 use crate::compile::CompiledScene;
 use crate::film::{Film, Region, Tile};
+use crate::first_hits::FirstHits;
 use crate::integrators::{Integrator, whitted::Whitted};
 use crate::observer::RayCounts;
 use crate::pixel::render_pixel;
@@ -15,7 +16,7 @@ const TILE: u32 = 32;
 /// How to go about rendering; changes no pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RenderOptions {
-    /// Number of threads; `None` takes one for each core.
+    /// Number of threads; `None` takes those of [`with_threads`] if it is called in there, else one for each core.
     pub threads: Option<usize>,
     /// Part of the picture to render; `None` renders all of it.
     pub region: Option<Region>,
@@ -63,34 +64,66 @@ impl std::fmt::Display for RenderError {
 
 impl std::error::Error for RenderError {}
 
+/// Runs `work` in a pool of so many threads; `None` takes one for each core. All that it calls here uses no others:
+/// [`compile`](crate::compile), and [`render`] unless its options ask for a number of their own.
+///
+/// # Errors
+///
+/// The system refused to start the threads.
+pub fn with_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T, RenderError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
+    Ok(pool.map_err(|error| RenderError::Threads(error.to_string()))?.install(work))
+}
+
 /// Renders the scene, or a region of it. If `progress` stops it, the film holds what was finished.
 pub fn render(scene: &CompiledScene, options: &RenderOptions, progress: &dyn Progress) -> Result<Film, RenderError> {
+    let film = Film::new(region_of(scene, options)?);
+    let render = |tile| render_tile(scene, tile);
+    in_tiles(film.region(), options, progress, film, render, |film, tile| film.put(&tile))
+}
+
+/// The part of the picture that is asked for.
+pub(crate) fn region_of(scene: &CompiledScene, options: &RenderOptions) -> Result<Region, RenderError> {
     let (width, height) = scene.picture_size();
     let region = options.region.unwrap_or(Region { x: 0, y: 0, width, height });
     let fits = |start: u32, length: u32, limit: u32| length > 0 && start < limit && length <= limit - start;
-    if !fits(region.x, region.width, width) || !fits(region.y, region.height, height) {
-        return Err(RenderError::RegionOutside { region, picture: (width, height) });
+    match fits(region.x, region.width, width) && fits(region.y, region.height, height) {
+        true => Ok(region),
+        false => Err(RenderError::RegionOutside { region, picture: (width, height) }),
     }
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(options.threads.unwrap_or(0))
-        .build()
-        .map_err(|error| RenderError::Threads(error.to_string()))?;
-    let film = Mutex::new(Film::new(region));
+}
+
+/// Cuts a region into tiles, makes something of each, on all threads, and puts it all into `gathered`, tile by tile, until
+/// `progress` stops it.
+pub(crate) fn in_tiles<G: Send, T: Send>(
+    region: Region,
+    options: &RenderOptions,
+    progress: &dyn Progress,
+    gathered: G,
+    make: impl Fn(Region) -> T + Sync,
+    put: impl Fn(&mut G, T) + Sync,
+) -> Result<G, RenderError> {
+    let gathered = Mutex::new((gathered, 0));
     let total = u64::from(region.width) * u64::from(region.height);
-    pool.install(|| {
+    let work = || {
         tiles(region).into_par_iter().for_each(|tile| {
             if !progress.stop() {
-                let tile = render_tile(scene, tile);
+                let made = make(tile);
                 let finished = {
-                    let mut film = film.lock().unwrap_or_else(PoisonError::into_inner);
-                    film.put(&tile);
-                    film.finished_pixels()
+                    let mut gathered = gathered.lock().unwrap_or_else(PoisonError::into_inner);
+                    put(&mut gathered.0, made);
+                    gathered.1 += u64::from(tile.width) * u64::from(tile.height);
+                    gathered.1
                 };
                 progress.finished(finished, total);
             }
         });
-    });
-    Ok(film.into_inner().unwrap_or_else(PoisonError::into_inner))
+    };
+    match options.threads {
+        None if rayon::current_thread_index().is_some() => work(),
+        threads => with_threads(threads, work)?,
+    }
+    Ok(gathered.into_inner().unwrap_or_else(PoisonError::into_inner).0)
 }
 
 /// Cuts a region into tiles, row by row.
@@ -126,9 +159,11 @@ fn render_tile_with<I: Integrator, A: Antialias>(
         bad_samples: 0,
         first_bad_pixel: None,
     };
+    let first_hits = FirstHits::find(scene, antialias, region);
     for y in region.y..region.y + region.height {
         for x in region.x..region.x + region.width {
-            let pixel = render_pixel(scene, (integrator, antialias), (x, y), &mut tile.rays);
+            let known = first_hits.of_pixel(tile.pixels.len());
+            let pixel = render_pixel(scene, (integrator, antialias), (x, y), known, &mut tile.rays);
             tile.pixels.push(pixel.color);
             if pixel.bad_samples > 0 {
                 tile.bad_samples += pixel.bad_samples;

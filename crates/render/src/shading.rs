@@ -1,23 +1,29 @@
 //! A hit, with all that shading needs to know about it.
 
-use crate::compile::{CompiledScene, PlacedObject};
-use crate::materials::Material;
+use crate::compile::{Colors, CompiledScene, PlacedObject};
+use crate::materials::{Material, Side, on_side, reflect};
 use crate::textures::TexturePoint;
 use durer_geometry::{Hit, Ray, Surface};
 use durer_math::{DVec2, DVec3, Rgb, functions::pow_wide};
+use durer_scene::Paint;
 
 /// A point on a surface, seen from one side.
 pub(crate) struct Shading<'a> {
     pub(crate) primitive: u32,
     pub(crate) surface: Surface,
     pub(crate) material: &'a Material,
-    /// The texture's colour.
+    /// The colour there.
     pub(crate) color: Rgb,
+    /// How much of the surface is there.
+    pub(crate) opacity: Rgb,
     /// The direction of the ray that came here.
     pub(crate) direction: DVec3,
-    /// The unit normal on the side that the ray came from.
+    /// The surface's unit normal on the side that the ray came from: rays start on either side of the surface by it.
+    face: DVec3,
+    /// The unit normal by which light falls and is reflected and refracted: `face`, unless a mesh has others. The ray came
+    /// against it.
     pub(crate) normal: DVec3,
-    /// True if that is the side that the surface's own normal points to.
+    /// True if the ray came from the side that the surface's own normal points to.
     pub(crate) from_outside: bool,
     /// True if the surface bounds a medium.
     pub(crate) bounds_medium: bool,
@@ -29,27 +35,49 @@ impl<'a> Shading<'a> {
     pub(crate) fn at(scene: &'a CompiledScene, ray: &Ray, hit: &Hit) -> Shading<'a> {
         let surface = scene.world.surface(ray, hit);
         let object = &scene.objects[hit.primitive as usize];
-        let material = &scene.materials[object.material as usize];
-        let color = scene.textures.color(material.color, &Textured { scene, object, surface: &surface, hit });
+        let material = &scene.materials[scene.material_at(hit) as usize];
+        let textured = Textured { scene, object, surface: &surface, hit };
         let from_outside = ray.direction.dot(surface.normal) < 0.0;
-        let normal = if from_outside { surface.normal } else { -surface.normal };
-        let (primitive, direction, bounds_medium) = (hit.primitive, ray.direction, object.is_medium);
-        Shading { primitive, surface, material, color, direction, normal, from_outside, bounds_medium }
+        let face = if from_outside { surface.normal } else { -surface.normal };
+        let (primitive, direction) = (hit.primitive, ray.direction);
+        let (color, normal) = match object.looks.details() {
+            None => (scene.textures.color(material.color, &textured), face),
+            Some(details) => {
+                let color = textured.color(material.color, scene.colors(details));
+                (color, normal_for_shading(scene, &surface, hit, face, direction))
+            }
+        };
+        let opacity = textured.opacity(material);
+        let bounds_medium = object.looks.is_medium;
+        Shading { primitive, surface, material, color, opacity, direction, face, normal, from_outside, bounds_medium }
     }
 
     /// The point from which rays start on the side that the ray came from.
     pub(crate) fn origin_back(&self) -> DVec3 {
-        self.surface.point + self.normal * self.surface.offset
+        self.surface.point + self.face * self.surface.offset
     }
 
-    /// A ray from here on the side that the ray came from.
-    pub(crate) fn ray_back(&self, direction: DVec3) -> Ray {
-        Ray { origin: self.origin_back(), direction }
+    /// The ray from here in the mirrored direction, which stays on the side that the ray came from.
+    pub(crate) fn mirrored(&self) -> Ray {
+        Ray { origin: self.origin_back(), direction: self.kept_on(Side::Front, reflect(self.direction, self.normal)) }
     }
 
-    /// A ray from here on the far side.
+    /// A ray from here on the far side, in this direction or, where that would come back, its mirror image.
     pub(crate) fn ray_on(&self, direction: DVec3) -> Ray {
-        Ray { origin: self.surface.point - self.normal * self.surface.offset, direction }
+        let direction = self.kept_on(Side::Back, direction);
+        Ray { origin: self.surface.point - self.face * self.surface.offset, direction }
+    }
+
+    /// A direction found by the normal, on the side of the face that it must be on.
+    fn kept_on(&self, side: Side, direction: DVec3) -> DVec3 {
+        if self.normal == self.face { direction } else { on_side(direction, self.face, side) }
+    }
+
+    /// Between the normal and the direction to a light; not positive for a light behind the surface, whatever normal
+    /// shading has.
+    pub(crate) fn cosine(&self, to_light: DVec3) -> f64 {
+        let above = self.face.dot(to_light);
+        if above > 0.0 { self.normal.dot(to_light) } else { above }
     }
 }
 
@@ -61,12 +89,66 @@ pub(crate) fn highlight(shading: &Shading<'_>, to_light: DVec3) -> f32 {
     if cosine > 0.0 { pow_wide(cosine, shading.material.shininess) } else { 0.0 }
 }
 
+/// A mesh's normal at a hit, on the side of `face`; `face` itself if it has none.
+///
+/// Near its silhouette a mesh shows triangles whose interpolated normals point away from the viewer, which no surface can
+/// have that he sees. They are turned just so far that he sees them edge-on.
+fn normal_for_shading(scene: &CompiledScene, surface: &Surface, hit: &Hit, face: DVec3, direction: DVec3) -> DVec3 {
+    let Some(normal) = scene.world.shading_normal(surface.point, hit) else { return face };
+    let normal = if normal.dot(face) < 0.0 { -normal } else { normal };
+    let away = normal.dot(direction);
+    if away < 0.0 { normal } else { (normal - direction * away).try_normalize().unwrap_or(face) }
+}
+
+/// How much of the surface is there at a hit.
+pub(crate) fn opacity_at(scene: &CompiledScene, hit: &Hit, surface: &Surface) -> Rgb {
+    let object = &scene.objects[hit.primitive as usize];
+    let material = &scene.materials[scene.material_at(hit) as usize];
+    Textured { scene, object, surface, hit }.opacity(material)
+}
+
 /// A hit as textures see it.
 struct Textured<'a> {
     scene: &'a CompiledScene,
     object: &'a PlacedObject,
     surface: &'a Surface,
     hit: &'a Hit,
+}
+
+impl Textured<'_> {
+    /// Colours of the surface's own take the place of a plain colour, and multiply a texture's.
+    fn color(&self, paint: Paint, colors: &Colors) -> Rgb {
+        match (self.own_color(colors), paint) {
+            (None, _) => self.scene.textures.color(paint, self),
+            (Some(own), Paint::Color(_)) => own,
+            (Some(own), Paint::Texture(_)) => own * self.scene.textures.color(paint, self),
+        }
+    }
+
+    fn own_color(&self, colors: &Colors) -> Option<Rgb> {
+        let part = self.hit.crossing.part as usize;
+        match colors {
+            Colors::None => None,
+            Colors::Vertices(data) => {
+                let weights = self.scene.world.vertex_weights(self.surface.point, self.hit)?;
+                let corners = data.triangles[part].map(|vertex| data.colors[vertex as usize]);
+                let weighed = corners.into_iter().zip(weights).map(|(color, weight)| color * weight as f32);
+                Some(weighed.fold(Rgb::BLACK, |sum, color| sum + color))
+            }
+            Colors::Particles(colors) => colors.get(part).copied(),
+        }
+    }
+
+    fn opacity(&self, material: &Material) -> Rgb {
+        match material.opacity {
+            None => Rgb::WHITE,
+            // Images may hold anything.
+            Some(paint) => {
+                let component = |c: f32| if c > 0.0 { c.min(1.0) } else { 0.0 };
+                self.scene.textures.color(paint, self).map(component)
+            }
+        }
+    }
 }
 
 impl TexturePoint for Textured<'_> {
@@ -79,5 +161,17 @@ impl TexturePoint for Textured<'_> {
 
     fn uv(&self) -> DVec2 {
         self.scene.world.uv(self.surface.point, self.hit)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_are_folded_over_to_the_side_wanted() {
+        let (up, down) = (DVec3::new(0.6, 0.8, 0.0), DVec3::new(0.6, -0.8, 0.0));
+        assert_eq!([on_side(up, DVec3::Y, Side::Front), on_side(down, DVec3::Y, Side::Front)], [up, up]);
+        assert_eq!([on_side(up, DVec3::Y, Side::Back), on_side(down, DVec3::Y, Side::Back)], [down, down]);
     }
 }

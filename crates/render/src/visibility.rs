@@ -2,15 +2,19 @@
 
 use crate::compile::{CLEAR, CompiledScene, OPAQUE};
 use crate::media::Media;
-use durer_geometry::Ray;
+use crate::shading::opacity_at;
+use durer_geometry::{Hit, Primitive, Ray, Surface};
 use durer_math::Rgb;
 
 /// A light that lies in a surface to the last bits is not hidden by it: shadow rays end this much, relatively, before
 /// the light. Forty bits are many times the rounding of a hit and far below anything visible.
 const SHORT_OF_LIGHT: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;
 
+/// More surfaces on one straight way than this are not looked at.
+pub(crate) const MOST_SURFACES: u32 = 100_000;
+
 /// What is left of light on the way along `ray` over `distance`: nothing behind something opaque; else the product of
-/// the transparencies of all clear surfaces and of what media take away. `media` are those around the ray's origin.
+/// what all clear surfaces let pass and of what media take away. `media` are those around the ray's origin.
 ///
 /// The ray must be aimed at the light with the index `light`. It goes straight, also through what would bend it.
 #[inline]
@@ -23,7 +27,10 @@ pub(crate) fn visibility(scene: &CompiledScene, media: &Media, ray: &Ray, distan
             return true;
         }
         clear = true;
-        left *= through(scene.material(id).transparency, primitive.count_crossings(ray, reach));
+        left *= match scene.objects[id as usize].looks.is_uneven {
+            false => through(scene.material(id).passed_if_even, primitive.count_crossings(ray, reach)),
+            true => through_each(scene, id, primitive, ray, reach),
+        };
         left.is_black()
     });
     if dark {
@@ -35,26 +42,44 @@ pub(crate) fn visibility(scene: &CompiledScene, media: &Media, ray: &Ray, distan
     }
 }
 
-/// What is left after so many surfaces of the same transparency.
-fn through(transparency: Rgb, surfaces: u32) -> Rgb {
-    (0..surfaces).fold(Rgb::WHITE, |left, _| left * transparency)
+/// What is left after so many surfaces that let the same pass.
+fn through(passed: Rgb, surfaces: u32) -> Rgb {
+    (0..surfaces).fold(Rgb::WHITE, |left, _| left * passed)
 }
 
-/// What media leave of light: goes from surface to surface, for the innermost medium decides.
+/// What is left behind all surfaces of a primitive, each of which may let something else pass.
+fn through_each(scene: &CompiledScene, id: u32, primitive: &Primitive, ray: &Ray, reach: f64) -> Rgb {
+    let mut left = Rgb::WHITE;
+    let _ = primitive.each_crossing(ray, reach, |_, crossing, surface| {
+        let hit = Hit { crossing: *crossing, primitive: id };
+        let material = &scene.materials[scene.material_at(&hit) as usize];
+        left *= material.passed(opacity_at(scene, &hit, surface));
+        left.is_black()
+    });
+    left
+}
+
+/// What media leave of light: goes from surface to surface, for the innermost medium decides. No medium is entered through
+/// a hole; what is but partly there counts as there.
 fn through_media(scene: &CompiledScene, media: &Media, mut ray: Ray, mut reach: f64) -> Rgb {
     let mut left = Rgb::WHITE;
     let mut media = media.clone();
-    // No shape has more than four surfaces one behind the other.
-    for _ in 0..4 * scene.objects.len() {
+    for _ in 0..MOST_SURFACES {
         let Some(hit) = scene.world.closest_hit(&ray, reach, CLEAR, None) else { break };
         left *= media.transmittance(scene, hit.crossing.t);
         let surface = scene.world.surface(&ray, &hit);
         let side = ray.direction.dot(surface.normal);
-        if scene.objects[hit.primitive as usize].is_medium {
-            let _ = media.cross(hit.primitive, side < 0.0);
+        let entering = side < 0.0;
+        if scene.objects[hit.primitive as usize].looks.is_medium && !(entering && is_hole(scene, &hit, &surface)) {
+            let _ = media.cross(hit.primitive, entering);
         }
         reach -= hit.crossing.t;
         ray.origin = surface.point + surface.normal * surface.offset.copysign(side);
     }
     left * media.transmittance(scene, reach)
+}
+
+/// True if nothing of the surface is there.
+fn is_hole(scene: &CompiledScene, hit: &Hit, surface: &Surface) -> bool {
+    scene.objects[hit.primitive as usize].looks.has_holes && opacity_at(scene, hit, surface).is_black()
 }

@@ -5,12 +5,18 @@
 //! * coordinates and lengths are at most 1e12; radii, widths and distances at least 1e-9; directions at least 1e-9 long;
 //! * transforms, each step and all of an object together, are reversible and change no length by more than 1e9;
 //! * pictures have at most 65535 pixels a side and 400 million in all;
-//! * objects nest at most 64 deep, textures at most 32;
+//! * objects nest at most 64 deep, textures at most 32; instances place at most 20 million things;
 //! * a ray splits into at most 100 million rays.
 
+mod bounds;
+mod instances;
+mod lists;
 mod materials;
+mod meshes;
 mod objects;
+mod particles;
 mod settings;
+mod solids;
 mod textures;
 mod values;
 

@@ -1,14 +1,14 @@
-//! The table of a comparison, with what is needed to judge it.
+//! Tables of comparisons, and where they are kept.
 
 use super::machine;
 use super::measure::Run;
-use super::peers::Case;
+use super::programs::Case;
 use crate::shell;
 
-/// Medians of one program on one size of picture.
+/// Medians of one program on one picture.
 pub(crate) struct Row {
     program: &'static str,
-    size: (u32, u32),
+    subject: String,
     cpu: f64,
     wall: f64,
     tracing: Option<f64>,
@@ -18,11 +18,11 @@ pub(crate) struct Row {
 impl Row {
     /// Over all runs that count.
     pub(crate) fn of(case: &Case, runs: &[Run]) -> Row {
-        let tracing: Vec<f64> = runs.iter().filter_map(|run| case.tracing(&run.printed)).collect();
+        let tracing: Vec<f64> = runs.iter().filter_map(|run| (case.tracing)(&run.printed)).collect();
         let of = |value: fn(&Run) -> f64| median(runs.iter().map(value).collect()).unwrap_or(f64::NAN);
         Row {
             program: case.program,
-            size: case.size,
+            subject: case.subject.clone(),
             cpu: of(|run| run.cpu),
             wall: of(|run| run.wall),
             tracing: median(tracing),
@@ -36,9 +36,8 @@ impl Row {
         let tracing_ratio =
             durer.tracing.zip(self.tracing).map_or("?".to_owned(), |(ours, theirs)| ratio(ours, theirs));
         format!(
-            "| {} × {} | {} | {:.3} | {:.3} | {tracing} | {:.1} | {} | {tracing_ratio} |\n",
-            self.size.0,
-            self.size.1,
+            "| {} | {} | {:.3} | {:.3} | {tracing} | {:.1} | {} | {tracing_ratio} |\n",
+            self.subject,
             self.program,
             self.cpu,
             self.wall,
@@ -48,42 +47,37 @@ impl Row {
     }
 }
 
-/// Prints the report and writes it to benches/runs/.
-pub(crate) fn write(rows: &[Row], rounds: usize, versions: &[String]) -> Result<(), String> {
-    let (date, processor) = (machine::date()?, machine::processor());
-    let text = markdown(rows, rounds, versions, &format!("{date}, {processor}"));
-    println!("\n{text}");
-    let name = format!("benches/runs/peers-{date}-{}.md", machine::slug(&processor));
-    shell::write(&shell::root().join(&name), text)?;
-    println!("written to {name}");
-    Ok(())
-}
-
-fn markdown(rows: &[Row], rounds: usize, versions: &[String], place: &str) -> String {
+/// A table with a line for each row; `subject` heads its first column. Ratios are to the first row of the same subject.
+pub(crate) fn table(subject: &str, rows: &[Row]) -> String {
     let mut text = format!(
-        "# The seed's room in durer, POV-Ray and Tachyon\n\n\
-         {place}, {} threads; commit {}.\n\
-         {}.\n\n\
-         One thread, no anti-aliasing, one ray a pixel, depth 5, to a PNG. Medians of {rounds} rounds in which the programs \
-         ran in turn,\nafter one more that is not counted. Processor time is user and system time of the whole process; tracing \
-         is what each\nprogram reports for it. Ratios are to durer: above 1, durer is faster. POV-Ray waits on timers, so its wall \
-         time says\nlittle. Tachyon has no refraction here, and triangles for the cones and the ellipsoid.\n\n\
-         | picture | program | CPU s | wall s | tracing s | peak MiB | CPU ÷ durer's | tracing ÷ durer's |\n\
-         |---|---|---:|---:|---:|---:|---:|---:|\n",
-        machine::cores(),
-        machine::commit(),
-        versions.join("; "),
+        "| {subject} | program | CPU s | wall s | tracing s | peak MiB | CPU ÷ durer's | tracing ÷ durer's |\n\
+         |---|---|---:|---:|---:|---:|---:|---:|\n"
     );
     for row in rows {
-        if let Some(durer) = rows.iter().find(|other| other.program == "durer" && other.size == row.size) {
+        if let Some(durer) = rows.iter().find(|other| other.subject == row.subject) {
             text += &row.markdown(durer);
         }
     }
     text
 }
 
+/// When, on what and of which commit something was measured.
+pub(crate) fn place() -> Result<String, String> {
+    let (date, processor) = (machine::date()?, machine::processor());
+    Ok(format!("{date}, {processor}, {} threads; commit {}.", machine::cores(), machine::commit()))
+}
+
+/// Prints a report and writes it to benches/runs/.
+pub(crate) fn keep(kind: &str, text: &str) -> Result<(), String> {
+    println!("\n{text}");
+    let name = format!("benches/runs/{kind}-{}-{}.md", machine::date()?, machine::slug(&machine::processor()));
+    shell::write(&shell::root().join(&name), text)?;
+    println!("written to {name}");
+    Ok(())
+}
+
 /// The middle one, or the mean of the two in the middle.
-fn median(mut values: Vec<f64>) -> Option<f64> {
+pub(crate) fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     let upper = values.get(values.len() / 2)?;
     let lower = values.get((values.len() - 1) / 2)?;
@@ -103,8 +97,15 @@ mod tests {
 
     #[test]
     fn ratios_are_to_durer() {
-        let row = |program, cpu| Row { program, size: (5, 4), cpu, wall: 1.0, tracing: Some(cpu), peak: 8.0 };
-        let text = markdown(&[row("durer", 0.1), row("Tachyon", 0.25)], 7, &["durer 0".to_owned()], "here");
+        let row = |program, cpu| Row {
+            program,
+            subject: "5 × 4".to_owned(),
+            cpu,
+            wall: 1.0,
+            tracing: Some(cpu),
+            peak: 8.0,
+        };
+        let text = table("picture", &[row("durer", 0.1), row("Tachyon", 0.25)]);
         assert!(text.contains("| 5 × 4 | Tachyon | 0.250 | 1.000 | 0.250 | 8.0 | 2.50 | 2.50 |"), "{text}");
     }
 }

@@ -1,8 +1,10 @@
 //! `durer check`: is a scene fine, and if not, where?
 
 use crate::exit::{Exit, Failure};
+use crate::labels::Shapes;
 use crate::load::SceneArgs;
-use crate::{labels, numbers, output};
+use crate::progress::Show;
+use crate::{numbers, output};
 use clap::Args;
 use durer::Scene;
 use serde_json::{Value, json};
@@ -29,13 +31,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     if arguments.json {
         return run_json(&arguments.scene);
     }
-    let scene = arguments.scene.load()?;
+    let scene = arguments.scene.load(Show::Progress)?;
     output::print(&format!("{}: fine: {}\n", arguments.scene.path.display(), summary(scene.scene())))?;
     Ok(Exit::Fine)
 }
 
 fn run_json(arguments: &SceneArgs) -> Result<Exit, Failure> {
-    let (diagnostics, fine) = match arguments.try_load()? {
+    let (diagnostics, fine) = match arguments.try_load(Show::Progress)? {
         Ok(loaded) => (loaded.warnings.to_json(), true),
         Err(diagnostics) => (diagnostics.to_json(), false),
     };
@@ -50,7 +52,7 @@ fn run_json(arguments: &SceneArgs) -> Result<Exit, Failure> {
 /// `15 shapes, 3 lights, …`
 fn summary(scene: &Scene) -> String {
     [
-        numbers::count(labels::shapes(scene).len(), "shape"),
+        numbers::count(Shapes::of(scene).len(), "shape"),
         numbers::count(scene.lights.len(), "light"),
         numbers::count(scene.materials.len(), "material"),
         numbers::count(scene.textures.len(), "texture"),

@@ -6,14 +6,17 @@ mod text;
 mod words;
 
 use crate::exit::{Exit, Failure};
+use crate::labels;
+use crate::labels::Shapes;
 use crate::load::SceneArgs;
 use crate::overrides::Overrides;
-use crate::{labels, output};
+use crate::output;
+use crate::progress::Show;
 use clap::Args;
 use durer::imaging::{Bitmap, DecodeLimits, EncodeOptions, FileFormat, Image, Texels, decode, encode};
 use durer::math::Rgb;
+use durer::scene::{Material, MaterialId};
 use durer::{PixelExplanation, Scene};
-use labels::ShapeLabel;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -48,21 +51,21 @@ pub(crate) struct Arguments {
 struct Explained<'s> {
     file: String,
     scene: &'s Scene,
-    shapes: Vec<ShapeLabel>,
+    shapes: Shapes<'s>,
     pixel: PixelExplanation,
 }
 
 /// Explains the pixel.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
-    let checked = arguments.overrides.apply(arguments.scene.load()?)?;
-    let compiled = durer::compile(&checked);
+    let checked = arguments.overrides.apply(arguments.scene.load(Show::Progress)?)?;
+    let compiled = arguments.scene.compile(&checked, Show::Progress);
     let (x, y) = arguments.pixel;
     let scene = checked.scene();
     let pixel = durer::explain(&compiled, x, y).ok_or_else(|| {
         let (width, height) = (scene.picture.width, scene.picture.height);
         Failure::usage(format!("--pixel: {x},{y} is outside of the picture of {width} × {height} pixels"))
     })?;
-    let explained = Explained { file: arguments.scene.name(), scene, shapes: labels::shapes(scene), pixel };
+    let explained = Explained { file: arguments.scene.name(), scene, shapes: Shapes::of(scene), pixel };
     match arguments.json {
         true => output::print_json(&explained.json())?,
         false => output::print(&explained.text())?,
@@ -93,9 +96,18 @@ impl Explained<'_> {
         }
     }
 
+    /// What a material is called; `None` stands for the default one.
+    fn material(&self, id: Option<MaterialId>) -> String {
+        match id.map(|id| (id.0, self.scene.materials.get(id.0 as usize))) {
+            None => "the default material".to_owned(),
+            Some((_, Some(Material { name: Some(name), .. }))) => format!("material \"{}\"", labels::cut(name)),
+            Some((id, _)) => format!("material {id}"),
+        }
+    }
+
     /// What a shape is called.
     fn shape(&self, index: usize) -> String {
-        self.shapes.get(index).map_or_else(|| format!("shape {index}"), ShapeLabel::to_string)
+        self.shapes.label(index).map_or_else(|| format!("shape {index}"), |label| label.to_string())
     }
 }
 

@@ -2,13 +2,14 @@
 
 use crate::exit::{Exit, Failure};
 use crate::load::SceneArgs;
-use crate::numbers::{bytes, count, short, vector};
+use crate::numbers::{bytes, count, short, thousands, vector};
 use crate::output;
+use crate::progress::Show;
 use clap::Args;
 use durer::imaging::Transfer;
 use durer::math::DVec3;
 use durer::scene::{Antialias, LightKind, Object, ObjectKind, Picture};
-use durer::{Bounds, Scene};
+use durer::{Bounds, CompiledScene, GeometryMemory, Scene};
 use serde_json::{Value, json};
 
 const EXAMPLES: &str = "\
@@ -30,9 +31,9 @@ pub(crate) struct Arguments {
 
 /// Counts what is in the scene.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
-    let checked = arguments.scene.load()?;
-    let compiled = durer::compile(&checked);
-    let facts = Facts::of(checked.scene(), compiled.bounds(), compiled.geometry_memory());
+    let checked = arguments.scene.load(Show::Progress)?;
+    let compiled = arguments.scene.compile(&checked, Show::Progress);
+    let facts = Facts::of(checked.scene(), &compiled);
     match arguments.json {
         true => output::print_json(&facts.json())?,
         false => output::print(&format!("{}\n{}", arguments.scene.path.display(), facts.text()))?,
@@ -47,14 +48,14 @@ struct Tally(Vec<(&'static str, usize)>);
 impl Tally {
     fn of(words: impl IntoIterator<Item = &'static str>) -> Tally {
         let mut tally = Tally::default();
-        words.into_iter().for_each(|word| tally.add(word));
+        words.into_iter().for_each(|word| tally.add(word, 1));
         tally
     }
 
-    fn add(&mut self, word: &'static str) {
+    fn add(&mut self, word: &'static str, number: usize) {
         match self.0.iter_mut().find(|(known, _)| *known == word) {
-            Some((_, count)) => *count += 1,
-            None => self.0.push((word, 1)),
+            Some((_, count)) => *count += number,
+            None => self.0.push((word, number)),
         }
     }
 
@@ -76,47 +77,87 @@ impl Tally {
 
 struct Facts<'s> {
     scene: &'s Scene,
-    shapes: Tally,
-    groups: usize,
+    objects: Objects,
+    /// Shapes of all kinds, every copy counted.
+    placed: usize,
     textures: Tally,
     lights: Tally,
     bounds: Option<Bounds>,
-    memory: usize,
+    memory: GeometryMemory,
+}
+
+/// The objects of a scene by kind, as the user described them: what is copied counts once.
+#[derive(Default)]
+struct Objects {
+    shapes: Tally,
+    groups: usize,
+    meshes: usize,
+    particles: Tally,
+    /// Copies that instances make.
+    copies: usize,
+    imports: usize,
+    solids: Tally,
 }
 
 impl<'s> Facts<'s> {
-    fn of(scene: &'s Scene, bounds: Bounds, memory: usize) -> Facts<'s> {
-        let (mut shapes, mut groups) = (Tally::default(), 0);
-        count_objects(&scene.objects, &mut shapes, &mut groups);
+    fn of(scene: &'s Scene, compiled: &CompiledScene) -> Facts<'s> {
+        let (mut objects, bounds) = (Objects::default(), compiled.bounds());
+        objects.add(&scene.objects);
         Facts {
             scene,
-            shapes,
-            groups,
+            objects,
+            placed: compiled.shape_count(),
             textures: Tally::of(scene.textures.iter().map(|texture| texture.pattern.word())),
             lights: Tally::of(scene.lights.iter().map(|light| light_word(light.kind))),
             bounds: Some(bounds).filter(|bounds| !bounds.is_empty()),
-            memory,
+            memory: compiled.geometry_memory(),
         }
     }
 
     fn text(&self) -> String {
         let named = self.scene.materials.iter().filter(|material| material.name.is_some()).count();
-        let mut lines = vec![
-            ("picture", picture_text(self.scene)),
-            ("shapes", self.shapes.text(count)),
-            ("groups", self.groups.to_string()),
-            ("materials", format!("{}, {named} of them named", self.scene.materials.len())),
-            ("textures", self.textures.text(adjective)),
-            ("lights", self.lights.text(adjective)),
-            ("bounds", bounds_text(self.bounds)),
-            ("memory", format!("{} for the shapes and their search structures", bytes(self.memory as u64))),
-        ];
-        let images =
-            self.scene.images.iter().map(|image| {
-                ("image", format!("{}: {} × {} pixels", image.file, image.bitmap.width, image.bitmap.height))
-            });
-        lines.splice(5..5, images);
+        let mut lines = vec![("picture", picture_text(self.scene)), ("shapes", self.objects.shapes.text(count))];
+        lines.extend(self.other_objects());
+        lines.push(("groups", self.objects.groups.to_string()));
+        lines.push(("materials", format!("{}, {named} of them named", self.scene.materials.len())));
+        lines.push(("textures", self.textures.text(adjective)));
+        lines.extend(self.scene.images.iter().map(|image| {
+            ("image", format!("{}: {} × {} pixels", image.file, image.bitmap.width, image.bitmap.height))
+        }));
+        lines.push(("lights", self.lights.text(adjective)));
+        lines.push(("bounds", bounds_text(self.bounds)));
+        lines.push(("memory", self.memory_text()));
         lines.iter().map(|(title, text)| format!("  {title:<10} {text}\n")).collect()
+    }
+
+    /// A line for each kind of object that not every scene has.
+    fn other_objects(&self) -> Vec<(&'static str, String)> {
+        let Objects { meshes, particles, copies, imports, solids, .. } = &self.objects;
+        let triangles = count(self.memory.triangles, "triangle");
+        let lines = [
+            (*meshes, "meshes", format!("{meshes}, of {triangles}")),
+            (particles.total(), "particles", particles.text(adjective)),
+            (*imports, "imports", imports.to_string()),
+            (solids.total(), "solids", solids.text(adjective)),
+            (*copies, "instances", format!("{}, with which there are {}", thousands(*copies as u64), count(self.placed, "shape"))),
+        ];
+        lines.into_iter().filter(|(number, ..)| *number > 0).map(|(_, title, text)| (title, text)).collect()
+    }
+
+    fn memory_text(&self) -> String {
+        let memory = &self.memory;
+        let total = bytes(memory.total() as u64);
+        let mut text = format!("{total} for the shapes and their search structures");
+        for (held, number, what) in self.shares() {
+            text += &format!(", {} a {what}", bytes_each(held, number));
+        }
+        text
+    }
+
+    /// What takes how many bytes for how many of what.
+    fn shares(&self) -> Vec<(usize, usize, &'static str)> {
+        let GeometryMemory { meshes, triangles, .. } = self.memory;
+        [(meshes, triangles, "triangle")].into_iter().filter(|(_, number, _)| *number > 0).collect()
     }
 
     fn json(&self) -> Value {
@@ -131,14 +172,23 @@ impl<'s> Facts<'s> {
             "picture": { "width": width, "height": height, "transfer": transfer_word(transfer) },
             "max_depth": self.scene.render.max_depth,
             "antialias": antialias_text(self.scene.render.antialias),
-            "shapes": self.shapes.json(),
-            "groups": self.groups,
+            "shapes": self.objects.shapes.json(),
+            "meshes": { "total": self.objects.meshes, "triangles": self.memory.triangles },
+            "particles": self.objects.particles.json(),
+            "imports": self.objects.imports,
+            "solids": self.objects.solids.json(),
+            "instances": self.objects.copies,
+            "placed": self.placed,
+            "groups": self.objects.groups,
             "materials": self.scene.materials.len(),
             "textures": self.textures.json(),
             "images": images,
             "lights": self.lights.json(),
             "bounds": self.bounds.map(|b| json!({ "min": array(b.min), "max": array(b.max) })),
-            "geometry_bytes": self.memory,
+            "geometry_bytes": self.memory.total(),
+            "bytes_each": self.shares().iter().map(|&(held, number, what)| {
+                (what.to_owned(), json!(held as f64 / number as f64))
+            }).collect::<serde_json::Map<String, Value>>(),
         })
     }
 }
@@ -148,19 +198,35 @@ fn adjective(number: usize, word: &str) -> String {
     format!("{number} {word}")
 }
 
-fn count_objects(objects: &[Object], shapes: &mut Tally, groups: &mut usize) {
-    for object in objects {
-        match &object.kind {
-            ObjectKind::Shape(shape) => shapes.add(shape.word()),
-            ObjectKind::Group(children) => {
-                *groups += 1;
-                count_objects(children, shapes, groups);
+/// `51.2 bytes`.
+fn bytes_each(held: usize, number: usize) -> String {
+    format!("{:.1} bytes", held as f64 / number as f64)
+}
+
+impl Objects {
+    fn add(&mut self, objects: &[Object]) {
+        for object in objects {
+            match &object.kind {
+                ObjectKind::Shape(shape) => self.shapes.add(shape.word(), 1),
+                ObjectKind::Group(members) => {
+                    self.groups += 1;
+                    self.add(members);
+                }
+                ObjectKind::Mesh(_) => self.meshes += 1,
+                ObjectKind::Particles(particles) => self.particles.add(particles.kind.word(), particles.kind.len()),
+                ObjectKind::Instances(instances) => {
+                    self.copies += instances.positions.values.len();
+                    self.add(&instances.objects);
+                }
+                ObjectKind::Import(import) => {
+                    self.imports += 1;
+                    self.add(&import.objects);
+                }
+                ObjectKind::Solid(solid) => {
+                    self.solids.add(solid.operation.word(), 1);
+                    self.add(&solid.operands);
+                }
             }
-            ObjectKind::Mesh(_)
-            | ObjectKind::Particles(_)
-            | ObjectKind::Instances(_)
-            | ObjectKind::Import(_)
-            | ObjectKind::Solid(_) => todo!(),
         }
     }
 }

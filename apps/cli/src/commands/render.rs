@@ -1,18 +1,17 @@
 //! `durer render`: from a scene file to a picture file.
 
 mod interrupt;
-mod progress;
 mod report;
 
 use crate::exit::{Exit, Failure};
 use crate::load::SceneArgs;
 use crate::overrides::Overrides;
+use crate::progress::{Bar, Show};
 use crate::target::{self, FileOptions};
 use clap::{Args, ValueEnum};
 use durer::imaging::EncodeOptions;
 use durer::{CheckedScene, Film, PictureFile, Region, RenderError, RenderOptions};
 use interrupt::Interrupt;
-use progress::Bar;
 use report::{Report, Seconds};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -21,6 +20,7 @@ const EXAMPLES: &str = "\
 Examples:
   durer render room.yaml                                  writes room.png
   durer render room.yaml -o room.exr --bit-depth float
+  durer render bunny.ply                                  a model
   durer render room.yaml --width 1920 --antialias grid:4
   durer render room.yaml --crop 100,80,64,64 -o detail.png
   durer render room.yaml --antialias recursive:0.1,3 --stats json > room.json
@@ -76,7 +76,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let path = arguments.output_path();
     let format = target::format_of(&path)?;
     let mut options = arguments.file.encode_options(format)?;
-    let (scene, load) = timed(|| arguments.overrides.apply(arguments.scene.load()?));
+    let (scene, load) = timed(|| arguments.overrides.apply(arguments.scene.load(arguments.show())?));
     let scene = scene?;
     options.transfer = scene.scene().picture.transfer;
     arguments.check_crop(&scene)?;
@@ -141,12 +141,18 @@ impl Arguments {
 
     /// The film, and the seconds for building and for tracing.
     fn trace(&self, scene: &CheckedScene, interrupt: &Interrupt) -> Result<(Film, f64, f64), Failure> {
-        let (compiled, build) = timed(|| durer::compile(scene));
-        let options = RenderOptions { threads: self.threads.map(usize::from), region: self.crop };
-        let bar = Bar::new(interrupt.stop_flag(), self.quiet);
-        let (film, render) = timed(|| durer::render(&compiled, &options, &bar));
-        bar.finish();
-        Ok((film?, build, render))
+        durer::with_threads(self.threads.map(usize::from), || {
+            let (compiled, build) = timed(|| self.scene.compile(scene, self.show()));
+            let bar = Bar::new(interrupt.stop_flag(), self.show());
+            let options = RenderOptions { threads: None, region: self.crop };
+            let (film, render) = timed(|| durer::render(&compiled, &options, &bar));
+            bar.finish();
+            Ok((film?, build, render))
+        })?
+    }
+
+    fn show(&self) -> Show {
+        Show::unless(self.quiet)
     }
 }
 

@@ -58,8 +58,13 @@ impl Seen {
 /// Looks at a scene of one's own camera along the ray from one point through another; all else is as the text says.
 #[track_caller]
 pub(crate) fn look(text: &str, from: Point, to: Point) -> Seen {
+    look_in(scene(text), from, to)
+}
+
+/// Looks so at a scene that is there already.
+#[track_caller]
+pub(crate) fn look_in(mut scene: Scene, from: Point, to: Point) -> Seen {
     let (from, to) = (DVec3::from(from), DVec3::from(to));
-    let mut scene = scene(text);
     let vertical = (to - from).normalize().y.abs() > 0.9;
     let up = if vertical { DVec3::Z } else { DVec3::Y };
     scene.camera = Some(Camera { position: from, look_at: to, up, ..Camera::default() });

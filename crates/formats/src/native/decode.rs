@@ -1,14 +1,17 @@
 //! Reading values out of the tree: complaints are gathered, and reading goes on.
 
 use super::suggest;
+use super::tables::Taken;
 use super::tree::{Entry, Node, NodeKind, Span, shorten};
 use super::value::Value;
 use crate::Limits;
 use crate::assets::Assets;
+use crate::data::Table;
 use crate::diagnostics::Complaint;
-use durer_scene::{ImageId, Scene};
+use durer_scene::{ImageId, Import, MeshData, Scene};
 use std::collections::BTreeMap;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// Complaints beyond these are not kept.
 pub(crate) const MOST_COMPLAINTS: usize = 10_000;
@@ -31,6 +34,17 @@ pub(crate) struct Decoder<'a> {
     pub(crate) image_nodes: Vec<Rc<Node>>,
     /// Images by the name of their file; `None` if it could not be read.
     pub(crate) images: BTreeMap<String, Option<ImageId>>,
+    /// Tables by the name of their file; `None` if it could not be read.
+    pub(crate) tables: BTreeMap<String, Option<Rc<Table>>>,
+    /// What has been taken from them.
+    pub(crate) taken: Taken,
+    /// Models by the name of their file, with what they brought in the scene's lists already; `None` if it could not be
+    /// read.
+    pub(crate) models: BTreeMap<String, Option<Rc<Import>>>,
+    /// Meshes by the name of their file, and the word for their normals.
+    pub(crate) meshes: BTreeMap<(String, &'static str), Arc<MeshData>>,
+    /// Objects that imports have brought so far, those of the same file counted each time.
+    pub(crate) imported: usize,
     /// Pixels of all images so far.
     pub(crate) texels: u64,
     /// Values that stand beside one that could not be read: what the check says of them may come from the stand-in.
@@ -51,6 +65,11 @@ impl<'a> Decoder<'a> {
             material_nodes: Vec::new(),
             image_nodes: Vec::new(),
             images: BTreeMap::new(),
+            tables: BTreeMap::new(),
+            taken: Taken::new(),
+            models: BTreeMap::new(),
+            meshes: BTreeMap::new(),
+            imported: 0,
             texels: 0,
         }
     }
@@ -191,8 +210,31 @@ impl<'n, 'd, 'a> Fields<'n, 'd, 'a> {
 
     /// Complains, and remembers that the thing is broken.
     pub(crate) fn break_with(&mut self, complaint: Complaint) {
-        self.broken = true;
+        self.doubt();
         let _: Option<()> = self.cx.complain(complaint);
+    }
+
+    /// Remembers that the thing is broken: somebody has complained.
+    pub(crate) fn doubt(&mut self) {
+        self.broken = true;
+    }
+
+    /// The thing lacks something that it cannot do without.
+    pub(crate) fn lack(&mut self, what: &str) {
+        let message = format!("`{}` needs {what}", self.title);
+        let help = format!("for example `{}`", self.example);
+        self.break_with(Complaint::error(self.title_span, message).help(help));
+    }
+
+    /// True if `key` is given.
+    pub(crate) fn has(&self, key: &str) -> bool {
+        self.entries.iter().any(|(name, _)| name.text() == Some(key))
+    }
+
+    /// Where the value of `key` stands, or else the word of the kind.
+    pub(crate) fn span_of(&self, key: &str) -> Span {
+        let entry = self.entries.iter().find(|(name, _)| name.text() == Some(key));
+        entry.map_or(self.title_span, |(_, value)| value.span)
     }
 
     /// Refuses fields that nobody asked for. If a value could not be read, those beside it become doubtful.

@@ -7,7 +7,8 @@ use super::value::Value;
 use super::write::{FieldsOut, Out, Writer};
 use durer_math::Rgb;
 use durer_scene::{
-    Background, Camera, Fog, Light, Material, MaterialId, Object, Picture, RenderSettings, Scene, Texture, TextureId,
+    Background, Camera, Fog, Light, Material, MaterialId, Object, ObjectKind, Picture, RenderSettings, Scene, Texture,
+    TextureId,
 };
 use serde_json::{Value as Json, json};
 use std::rc::Rc;
@@ -21,7 +22,7 @@ pub(crate) struct SceneFile {
     background: Background,
     ambient: Rgb,
     fog: Option<Fog>,
-    lights: Vec<Light>,
+    lights: Option<Vec<Light>>,
     textures: Textures,
     materials: Materials,
     objects: Vec<Object>,
@@ -34,7 +35,8 @@ record!(SceneFile {
     background: Background = Background::default() => "What rays that leave the scene see: a color, or `{bottom: color, top: color}`.";
     ambient: Rgb = Rgb::WHITE => "Ambient light, from everywhere: multiplies the `ambient` of each material.";
     fog: Option<Fog> = None => "Fog.";
-    lights: Vec<Light> = Light::default_lights() => "The lights; without this field two default lights, with `[]` none.";
+    lights: Option<Vec<Light>> = None
+        => "The lights. Without this field, those of imported models; if there are none either, two default lights. With `[]` none.";
     textures: Textures = Textures::default() => "Textures, by name.";
     materials: Materials = Materials::default() => "Materials, by name.";
     objects: Vec<Object> = Vec::new() => "What is to be seen.";
@@ -58,8 +60,24 @@ pub(crate) fn read(root: &Rc<Node>, cx: &mut Decoder<'_>) {
     let file = SceneFile::read(&mut from);
     from.finish();
     let SceneFile { camera, picture, render, background, ambient, fog, lights, objects, .. } = file;
+    let lights = lights.unwrap_or_else(|| lights_beside(&objects));
     cx.scene =
         Scene { camera, picture, render, background, ambient, fog, lights, objects, ..std::mem::take(&mut cx.scene) };
+}
+
+/// The lights of a scene that says nothing of them.
+fn lights_beside(objects: &[Object]) -> Vec<Light> {
+    if objects.iter().any(brings_lights) { Vec::new() } else { Light::default_lights() }
+}
+
+fn brings_lights(object: &Object) -> bool {
+    match &object.kind {
+        ObjectKind::Import(import) => !import.lights.is_empty(),
+        ObjectKind::Group(members) => members.iter().any(brings_lights),
+        ObjectKind::Instances(copies) => copies.objects.iter().any(brings_lights),
+        ObjectKind::Solid(solid) => solid.operands.iter().any(brings_lights),
+        ObjectKind::Shape(_) | ObjectKind::Mesh(_) | ObjectKind::Particles(_) => false,
+    }
 }
 
 fn entries_of(node: &Node) -> Option<&[(Rc<Node>, Rc<Node>)]> {
@@ -175,7 +193,7 @@ pub(crate) fn write(scene: &Scene) -> String {
         background: scene.background,
         ambient: scene.ambient,
         fog: scene.fog,
-        lights: scene.lights.clone(),
+        lights: (scene.lights != lights_beside(&scene.objects)).then(|| scene.lights.clone()),
         textures: Textures(named(&writer.texture_names).into_iter().map(TextureId).collect()),
         materials: Materials(named(&writer.material_names).into_iter().map(MaterialId).collect()),
         objects: scene.objects.clone(),

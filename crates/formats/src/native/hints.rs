@@ -84,9 +84,6 @@ pub(crate) fn unknown_field(title: &str, name: &str, value: &Node, known: &[&str
     if title == "camera" && (name.starts_with("horizontal") || matches!(name, "hfov" | "fovx" | "xfov")) {
         return "`fov` is the vertical angle of view, in degrees".to_owned();
     }
-    if name == "opacity" || name == "alpha" {
-        return "write `transparency`, which is 1 - opacity".to_owned();
-    }
     if matches!(name, "width" | "height" | "resolution") && matches!(title, "scene" | "camera" | "render") {
         return "the picture's size stands under `picture:`: `picture: {width: 640, height: 480}`".to_owned();
     }
@@ -103,6 +100,9 @@ pub(crate) fn unknown_field(title: &str, name: &str, value: &Node, known: &[&str
     if matches!(name, "color" | "colour" | "texture") && known.contains(&"material") {
         return "it is part of the material: `material: {color: …}`".to_owned();
     }
+    if matches!(name, "opacity" | "emission") && known.contains(&"material") {
+        return format!("it is part of the material: `material: {{{name}: …}}`");
+    }
     suggest::did_you_mean(name, known, &format!("fields of `{title}`"))
 }
 
@@ -117,10 +117,6 @@ pub(crate) fn unknown_kind(word: &str, value: Option<&Node>, noun: &str, words: 
     }
     if noun == "light" && word == "ambient" {
         return "ambient light is a field of the scene: `ambient: 1`, beside `lights:`".to_owned();
-    }
-    if noun == "object" && matches!(word, "mesh" | "obj" | "difference" | "intersection" | "csg") {
-        let help = suggest::list(words);
-        return format!("durer does not have it yet; the objects are {help}");
     }
     suggest::did_you_mean(word, words, &format!("kinds of {noun}"))
 }

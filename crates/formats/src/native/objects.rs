@@ -1,12 +1,13 @@
 //! Objects. A new shape is one more entry here, and one more variant of [`Shape`].
 
 use super::decode::{Decoder, Fields};
-use super::record::{Choice, FieldAbout, KindAbout, Record, choice, example_of, fields, record};
+use super::record::{Choice, FieldAbout, KindAbout, Record, choice, fields, record};
 use super::tree::Node;
 use super::value::{Item, Value};
 use super::write::{FieldsOut, Out, Writer};
+use super::{instances, meshes, models, particles};
 use durer_math::{DVec2, DVec3};
-use durer_scene::{MaterialId, Object, ObjectKind, Shape, Transform};
+use durer_scene::{Import, MaterialId, Object, ObjectKind, Operation, Shape, Solid, Transform};
 use serde_json::{Value as Json, json};
 use std::rc::Rc;
 
@@ -85,6 +86,15 @@ record!(Members {
     objects: Vec<Object> => "What moves together, and shares the material unless it has its own.";
 });
 
+/// The fields of a solid.
+pub(crate) struct Operands {
+    objects: Vec<Object>,
+}
+
+record!(Operands {
+    objects: Vec<Object> => "Closed shapes, closed meshes, solids, and groups of these. A plane is closed: all behind it is inside.";
+});
+
 /// The fields that all objects have.
 pub(crate) struct Placing {
     name: Option<String>,
@@ -99,15 +109,88 @@ record!(Placing {
     transform: Transform = Transform::default() => "Steps that move it, the first one first.";
 });
 
-const GROUP_EXAMPLE: &str =
-    "group: {objects: [sphere: {radius: 1}, sphere: {center: [2, 0, 0]}], material: {color: gold}}";
+/// A kind: its word, what it is, an example, its fields.
+type OtherKind = (&'static str, &'static str, &'static str, fn() -> Vec<FieldAbout>);
 
-/// The kinds of object: all shapes, and groups.
+/// The kinds of object that are not read field by field into what they are.
+const OTHERS: [OtherKind; 7] = [
+    (
+        "group",
+        "Objects that move together.",
+        "group: {objects: [sphere: {radius: 1}, sphere: {center: [2, 0, 0]}], material: {color: gold}}",
+        Members::about,
+    ),
+    (
+        "mesh",
+        "A triangle mesh: a model file with one mesh in it, or written out.",
+        "mesh: {vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles: [[0, 1, 2]]}",
+        meshes::Written::about,
+    ),
+    (
+        "import",
+        "All that a model file holds: objects and materials, lights, and a camera, which is used if the scene has none.",
+        "import: {file: room.glb}",
+        models::Written::about,
+    ),
+    (
+        "instances",
+        "Copies of the same objects, by the million.",
+        "instances: {objects: [sphere: {radius: 0.2}], positions: [[0, 0, 0], [1, 0, 0]], scale: [1, 2]}",
+        instances::Written::about,
+    ),
+    (
+        "union",
+        "One solid: what is in any of its objects.",
+        "union: {objects: [sphere: {radius: 1}, box: {min: [0, 0, 0]}]}",
+        Operands::about,
+    ),
+    (
+        "intersection",
+        "One solid: what is in all of its objects.",
+        "intersection: {objects: [sphere: {radius: 1.2}, box], material: {color: gold}}",
+        Operands::about,
+    ),
+    (
+        "difference",
+        "One solid: what is in the first of its objects, but in none of the others. Cut surfaces have the material of the object that cuts, if it has one.",
+        "difference: {objects: [box, sphere: {radius: 1.2}], material: {color: gold}}",
+        Operands::about,
+    ),
+];
+
+/// The kinds of object.
 pub(crate) fn kinds() -> Vec<KindAbout> {
-    let about = "Objects that move together.";
-    let mut kinds = Shape::kinds();
-    kinds.push(KindAbout { word: "group", about, example: GROUP_EXAMPLE, fields: Members::about() });
-    kinds
+    let others = OTHERS.map(|(word, about, example, fields)| KindAbout { word, about, example, fields: fields() });
+    Shape::kinds().into_iter().chain(particles::Written::kinds()).chain(others).collect()
+}
+
+/// The words for the kinds, and an example of each.
+fn words() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let others = OTHERS.iter().map(|(word, _, example, _)| (*word, *example));
+    Shape::WORDS.iter().chain(particles::Written::WORDS).copied().chain(others)
+}
+
+/// Reads the fields of the kind `word`.
+fn read(word: &str, from: &mut Fields<'_, '_, '_>) -> ObjectKind {
+    let mut solid = |operation| {
+        let operands = Operands::read(from).objects;
+        ObjectKind::Solid(Solid { operation, operands })
+    };
+    match word {
+        "union" => solid(Operation::Union),
+        "intersection" => solid(Operation::Intersection),
+        "difference" => solid(Operation::Difference),
+        "group" => ObjectKind::Group(Members::read(from).objects),
+        "mesh" => ObjectKind::Mesh(meshes::Written::read(from).resolve(from)),
+        "import" => ObjectKind::Import(models::Written::read(from).resolve(from)),
+        "instances" => ObjectKind::Instances(instances::Written::read(from).resolve(from)),
+        word => match (Shape::read(word, from), particles::Written::read(word, from)) {
+            (Some(shape), _) => ObjectKind::Shape(shape),
+            (None, Some(particles)) => ObjectKind::Particles(particles.resolve(from)),
+            // No word but those of `words` comes here.
+            (None, None) => ObjectKind::Group(Vec::new()),
+        },
+    }
 }
 
 impl Value for Object {
@@ -118,14 +201,11 @@ impl Value for Object {
         Object::new(ObjectKind::Shape(Shape::Sphere { center: DVec3::ZERO, radius: 1.0 }))
     }
     fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
-        let words: Vec<&'static str> = Shape::WORDS.iter().map(|(word, _)| *word).chain(["group"]).collect();
-        let mut from = Fields::of_kind(node, cx, "object", &words)?;
+        let known: Vec<&'static str> = words().map(|(word, _)| word).collect();
+        let mut from = Fields::of_kind(node, cx, "object", &known)?;
         let word = from.word();
-        from.set_example(if word == "group" { GROUP_EXAMPLE } else { example_of::<Shape>(word) });
-        let kind = match Shape::read(word, &mut from) {
-            Some(shape) => ObjectKind::Shape(shape),
-            None => ObjectKind::Group(Members::read(&mut from).objects),
-        };
+        from.set_example(words().find(|(known, _)| *known == word).map_or("", |(_, example)| example));
+        let kind = read(word, &mut from);
         let Placing { name, material, transform } = Placing::read(&mut from);
         from.finish();
         Some(Object { name, material, transform, kind })
@@ -134,23 +214,23 @@ impl Value for Object {
         let Object { name, material, transform, kind } = self;
         let mut out = FieldsOut::new(writer);
         let placing = Placing { name: name.clone(), material: *material, transform: transform.clone() };
+        // What has a list of objects has it last, since it may be long.
         match kind {
-            ObjectKind::Shape(shape) => {
-                shape.write(&mut out);
-                placing.write(&mut out);
-                out.into_kind(shape.word())
-            }
-            ObjectKind::Group(objects) => {
-                placing.write(&mut out);
-                out.required("objects", objects);
-                out.into_kind("group")
-            }
-            ObjectKind::Mesh(_)
-            | ObjectKind::Particles(_)
-            | ObjectKind::Instances(_)
-            | ObjectKind::Import(_)
-            | ObjectKind::Solid(_) => todo!(),
+            ObjectKind::Shape(shape) => shape.write(&mut out),
+            ObjectKind::Mesh(mesh) => meshes::Written::from(mesh).write(&mut out),
+            ObjectKind::Particles(many) => particles::Written::from(many).write(&mut out),
+            ObjectKind::Import(Import { file, .. }) => models::Written { file: file.clone() }.write(&mut out),
+            ObjectKind::Group(_) | ObjectKind::Instances(_) | ObjectKind::Solid(_) => {}
         }
+        placing.write(&mut out);
+        match kind {
+            // Straight, since a record would hold a copy of all objects.
+            ObjectKind::Group(objects) => out.required("objects", objects),
+            ObjectKind::Solid(solid) => out.required("objects", &solid.operands),
+            ObjectKind::Instances(copies) => instances::Written::from(copies).write(&mut out),
+            ObjectKind::Shape(_) | ObjectKind::Mesh(_) | ObjectKind::Particles(_) | ObjectKind::Import(_) => {}
+        }
+        out.into_kind(kind.word())
     }
     fn schema() -> Json {
         json!({ "$ref": "#/$defs/object" })

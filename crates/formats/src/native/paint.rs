@@ -115,6 +115,10 @@ impl Value for Paint {
     }
 }
 
+impl Item for Rgb {
+    const PLURAL: &'static str = "colors";
+}
+
 impl Item for Paint {
     const PLURAL: &'static str = "colors or textures";
 }

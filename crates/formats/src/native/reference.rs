@@ -11,8 +11,8 @@ use super::value::Value;
 use super::write::Out;
 use durer_imaging::Transfer;
 use durer_scene::{
-    Antialias, Attenuation, Camera, Encoding, Falloff, Filter, Fog, LightKind, Mapping, Pattern, Picture,
-    RenderSettings, Space, Wrap,
+    Antialias, Attenuation, Camera, Channels, Encoding, Falloff, Filter, Fog, LightKind, Mapping, MeshNormals,
+    MeshPart, Pattern, Picture, RenderSettings, Space, Wrap,
 };
 use std::fmt::Write as _;
 
@@ -41,13 +41,56 @@ complete and explain fields, begin the file with `# yaml-language-server: $schem
 `docs/scene.schema.json`.
 ";
 
+const DATA: &str = "
+## Lists and data files
+
+Where it says *or a data file*, three things may stand:
+
+```yaml
+centers: [[0, 0, 0], [1, 0, 0]]                         # the values themselves
+centers: positions.npy                                  # a file: its usual columns
+centers: {file: run.csv, columns: [px, py, pz]}         # a file: these columns, by name or by number from 1
+```
+
+| file | what is read |
+|---|---|
+| `.npy` | NumPy arrays of shape (n,) or (n, columns), of floats or whole numbers, in any order of bytes; not structured ones. |
+| `.csv`, `.tsv`, `.txt`, `.dat` | Tables as text: cells are separated by commas, semicolons, tabs or spaces, as the first line shows. If no cell of the first line is a number, it holds names; so does a line that begins with `#`, right before a first line of numbers. Other lines with `#`, and empty ones, are skipped. Cells may be in double quotes. |
+| `.ply` | The vertices of a PLY file, each property a column. |
+| `.xyz` | Atoms: their number, a line of remarks, then element, x, y, z of each; or as `Properties=` in the remarks of extended XYZ says. Of several frames the first is read. |
+
+Usual columns, in any case of letters:
+
+| field | columns |
+|---|---|
+| `centers`, `positions` | `x`, `y`, `z`; or `px`…, `pos_x`…, `position_x`…, `points:0`… |
+| `bases` and `tops` | `x0`, `y0`, `z0` and `x1`, `y1`, `z1`; or `x1`… and `x2`…; `base_x`… and `top_x`…; `start_x`… and `end_x`…; `ax`… and `bx`… |
+| `radius` | `radius`, `r` (unless there is a `g`), or `size` |
+| `top_radius` | `top_radius` |
+| `colors` | `red`, `green`, `blue`; or `r`, `g`, `b`; `color_r`… |
+| `rotations` | `rx`, `ry`, `rz`; or `rot_x`…, `rotation_x`… |
+| `scale` | `scale`, `size` or `s` |
+
+A file with just as many columns as the field takes needs no names. As `file:` of particles, a table without names may have
+3 columns for each point, then a radius, then a color; the last two may be missing.
+
+Colors in files are linear, from 0 to 1; but bytes are sRGB from 0 to 255, and so are other numbers if all of them are whole
+and one is above 1.
+
+Atoms get the radius and color of their element, unless the file has columns for them: the covalent radius in ångström
+(Cordero et al. 2008), with which bonded atoms just touch, and the color that Jmol gives them. What is no element becomes a
+pink ball of radius 1.
+
+Numbers that are infinite or not a number are refused. Tables have at most 1000 columns.
+";
+
 const LIMITS: &str = "## Limits
 
 Coordinates and lengths are at most 1e12 in size; radii, widths and distances are at least 1e-9; directions are at
 least 1e-9 long. Transforms must be reversible, also all together: no step may flatten or stretch space by more than a
-factor of 1e9. Pictures have at most 65535 pixels a side and 400 million in all. Groups nest at most 64 deep, textures
-at most 32. A ray may split into at most 100 million rays; `max_depth` and `min_weight` bound how many it can become.
-Image files must lie in the folder of the scene file or in one given by `--allow-path`.
+factor of 1e9. Pictures have at most 65535 pixels a side and 400 million in all. Objects nest at most 64 deep, textures
+at most 32. Instances place at most 20 million things, of which a mesh is one, and so is a set of particles. A ray may split into at most 100 million rays; `max_depth` and `min_weight` bound how many it can become.
+Images, models and data files must lie in the folder of the scene file or in one given by `--allow-path`.
 ";
 
 /// The reference page, in Markdown.
@@ -71,6 +114,10 @@ pub fn reference_markdown() -> String {
     family(&mut page, "Lights", "Items of `lights:`.", &LightKind::kinds(), &Shine::about());
     words(&mut page, "falloff", &Falloff::kinds());
     family(&mut page, "Objects", "Items of `objects:`.", &super::objects::kinds(), &Placing::about());
+    words(&mut page, "normals", &MeshNormals::kinds());
+    let about = "Items of `parts:` of a mesh.";
+    section(&mut page, 3, "`parts`", about, &MeshPart::about());
+    page += DATA;
     transforms(&mut page);
     let about = "Named under `materials:`, or written at `material:`.";
     section(&mut page, 2, "Materials", about, &Surface::about());
@@ -81,6 +128,7 @@ pub fn reference_markdown() -> String {
     words(&mut page, "wrap", &Wrap::kinds());
     words(&mut page, "filter", &Filter::kinds());
     words(&mut page, "encoding", &Encoding::kinds());
+    words(&mut page, "channels", &Channels::kinds());
     words(&mut page, "mapping", &Mapping::kinds());
     page + "\n" + LIMITS
 }

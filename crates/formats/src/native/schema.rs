@@ -3,6 +3,7 @@
 use super::colors;
 use super::file::SceneFile;
 use super::lights::Shine;
+use super::lists;
 use super::materials::Surface;
 use super::objects::Placing;
 use super::record::{Choice, DefaultAbout, FieldAbout, KindAbout, Record};
@@ -19,7 +20,7 @@ pub fn json_schema() -> Json {
     schema["title"] = json!("durer scene");
     schema["description"] = json!("A scene for the ray tracer durer. Right-handed coordinates, +y up; colors linear.");
     schema["$defs"] = json!({
-        "object": kinds_with(&super::objects::kinds(), &Placing::about(), "An object: a shape or a group."),
+        "object": kinds_with(&super::objects::kinds(), &Placing::about(), "An object."),
         "light": kinds_with(&LightKind::kinds(), &Shine::about(), "A light."),
         "texture": kinds_with(&Pattern::kinds(), &textures::Placing::about(), "A texture."),
         "material": record(&Surface::about()),
@@ -32,6 +33,10 @@ pub fn json_schema() -> Json {
             "description": "Three numbers [x, y, z].",
             "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3,
         },
+        "points": lists::list_schema(&json!({ "$ref": "#/$defs/vector" })),
+        "numbers": lists::list_schema(&json!({ "type": "number" })),
+        "colors": lists::list_schema(&json!({ "$ref": "#/$defs/color" })),
+        "data": lists::file_schema(),
         "transform": {
             "description": "Steps, the first one first.",
             "anyOf": [{ "type": "array", "items": { "$ref": "#/$defs/step" } }, { "$ref": "#/$defs/step" }],

@@ -86,7 +86,7 @@ record!(ImageTexture {
     filter: Filter = Filter::Bilinear => "What is between the centers of pixels.";
     encoding: Encoding = Encoding::Srgb => "What the numbers in the file mean.";
     channels: Channels = Channels::Color => "Which of its channels are shown.";
-    tint: Rgb = Rgb::WHITE => "Multiplies what the file says.";
+    tint: Rgb = Rgb::WHITE => "Multiplies what the file says; not negative.";
 });
 
 choice! { Mapping, "mapping";
@@ -127,7 +127,7 @@ choice_value!(Encoding, Encoding::Srgb);
 
 choice! { Channels, "channels";
     Color "color": "Its colors.", example "channels: color", {}
-    Alpha "alpha": "Its alpha channel, as gray.", example "channels: alpha", {}
+    Alpha "alpha": "Its alpha channel, as gray; white if it has none. For the `opacity` of materials.", example "channels: alpha", {}
 }
 choice_value!(Channels, Channels::Color);
 

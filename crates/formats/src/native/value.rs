@@ -301,7 +301,14 @@ impl<T: Item> Value for Vec<T> {
     }
     fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
         let items = items_of::<Self>(node, cx, 0, usize::MAX)?;
-        Some(items.iter().map(|item| T::decode(item, cx).unwrap_or_else(T::stand_in)).collect())
+        let one = |item: &Rc<Node>| {
+            T::decode(item, cx).unwrap_or_else(|| {
+                // The check shall say nothing of the stand-in.
+                cx.doubtful.push(item.span);
+                T::stand_in()
+            })
+        };
+        Some(items.iter().map(one).collect())
     }
     fn encode(&self, writer: &Writer<'_>) -> Out {
         Out::List(self.iter().map(|item| item.encode(writer)).collect())
@@ -331,4 +338,29 @@ impl Item for DVec3 {
 
 impl Item for DVec2 {
     const PLURAL: &'static str = "pairs [u, v]";
+}
+
+impl Item for f32 {
+    const PLURAL: &'static str = "numbers";
+}
+
+impl Item for f64 {
+    const PLURAL: &'static str = "numbers";
+}
+
+impl Item for u32 {
+    const PLURAL: &'static str = "whole numbers";
+}
+
+impl Item for String {
+    const PLURAL: &'static str = "words";
+}
+
+/// Lists in lists.
+impl<T: Item, const N: usize> Item for [T; N] {
+    const PLURAL: &'static str = match N {
+        2 => "pairs",
+        3 => "triples",
+        _ => "lists",
+    };
 }

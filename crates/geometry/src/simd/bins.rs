@@ -63,7 +63,7 @@ impl Scale {
 
 impl Bins {
     pub(crate) fn new(items: usize, centers: &Centers) -> Bins {
-        let count = (4 + items / 16).min(MOST_BINS);
+        let count = (16 + items / 16).min(MOST_BINS);
         Bins {
             count,
             scale: Scale::new(count, centers),

@@ -8,23 +8,30 @@ use half::f16;
 use std::io::Cursor;
 use std::result::Result;
 
-use crate::{Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, ExrSamples, FileFormat, Texels};
+use crate::{Alpha, Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, ExrSamples, FileFormat, Texels};
 
 /// Pixels as they come in, in any order.
 struct Canvas {
     width: usize,
     texels: Vec<[f32; 3]>,
-    is_opaque: bool,
+    /// Empty as long as all pixels are opaque.
+    alphas: Vec<f32>,
 }
 
 impl Canvas {
     fn new(size: Vec2<usize>) -> Canvas {
-        Canvas { width: size.width(), texels: vec![[0.0; 3]; size.area()], is_opaque: true }
+        Canvas { width: size.width(), texels: vec![[0.0; 3]; size.area()], alphas: Vec::new() }
     }
 
     fn set(&mut self, at: Vec2<usize>, texel: [f32; 3], alpha: f32) {
-        self.texels[at.y() * self.width + at.x()] = texel;
-        self.is_opaque &= alpha == 1.0;
+        let index = at.y() * self.width + at.x();
+        self.texels[index] = texel;
+        if alpha != 1.0 && self.alphas.is_empty() {
+            self.alphas = vec![1.0; self.texels.len()];
+        }
+        if let Some(slot) = self.alphas.get_mut(index) {
+            *slot = alpha;
+        }
     }
 }
 
@@ -47,14 +54,15 @@ fn decode_flat(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, DecodeErro
         return Err(unsupported("no flat channels R, G and B".into()));
     };
     let (width, height) = (size.width() as u32, size.height() as u32);
-    Ok(Bitmap { width, height, texels: Texels::F32(canvas.texels), alpha_dropped: !canvas.is_opaque })
+    let alpha = (!canvas.alphas.is_empty()).then_some(Alpha::F32(canvas.alphas));
+    Ok(Bitmap { width, height, texels: Texels::F32(canvas.texels), alpha })
 }
 
 /// Refuses a layer that is too large, has no pixels, or is cut into blocks too large to hold in memory.
 fn check_size(header: &Header, limits: &DecodeLimits) -> Result<(), DecodeError> {
     let side = |size: usize| u32::try_from(size).unwrap_or(u32::MAX);
     let (width, height) = (side(header.layer_size.width()), side(header.layer_size.height()));
-    limits.check(width, height, 12)?;
+    limits.check(width, height, if has_channels(header, &["A"]) { 16 } else { 12 })?;
     let block = match header.blocks {
         BlockDescription::ScanLines => Vec2(header.layer_size.width(), header.compression.scan_lines_per_block()),
         BlockDescription::Tiles(tiles) => tiles.tile_size,

@@ -24,7 +24,7 @@ pub(crate) fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, Deco
         read_row(&mut rest, &mut row)?;
         texels.extend(row.iter().map(|&pixel| light(pixel)));
     }
-    Ok(Bitmap { width, height, texels: Texels::F32(texels), alpha_dropped: false })
+    Ok(Bitmap { width, height, texels: Texels::F32(texels), alpha: None })
 }
 
 /// Reads the lines up to the empty one, and the one with the size after it.

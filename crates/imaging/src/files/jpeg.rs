@@ -33,7 +33,7 @@ pub(crate) fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, Deco
     let orientation = decoder.exif().and_then(|exif| Orientation::from_exif_chunk(exif));
     let upright = upright(width as u32, height as u32, samples, orientation)?;
     let texels = upright.as_raw().as_chunks::<3>().0.to_vec();
-    Ok(Bitmap { width: upright.width(), height: upright.height(), texels: Texels::U8(texels), alpha_dropped: false })
+    Ok(Bitmap { width: upright.width(), height: upright.height(), texels: Texels::U8(texels), alpha: None })
 }
 
 /// The picture turned as the camera says that it was held.

@@ -22,7 +22,7 @@ pub(crate) fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, Deco
     let rows = header.samples.chunks_exact(row_bytes).take(header.height as usize);
     let texels = rows.rev().flat_map(|row| row.chunks_exact(header.channels * 4)).map(|pixel| header.texel(pixel));
     let texels = Texels::F32(texels.collect());
-    Ok(Bitmap { width: header.width, height: header.height, texels, alpha_dropped: false })
+    Ok(Bitmap { width: header.width, height: header.height, texels, alpha: None })
 }
 
 impl Header<'_> {

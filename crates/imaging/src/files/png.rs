@@ -5,7 +5,7 @@ use std::io::{Cursor, ErrorKind};
 
 use crate::quantize::{bytes_from_linear, word_from_linear};
 use crate::{
-    Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, FileFormat, Image, PngDepth, Texels, Transfer,
+    Alpha, Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, FileFormat, Image, PngDepth, Texels, Transfer,
 };
 
 pub(crate) fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, DecodeError> {
@@ -16,42 +16,48 @@ pub(crate) fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, Deco
     decoder.set_ignore_iccp_chunk(true);
     let header = decoder.read_header_info().map_err(decode_error)?;
     let (width, height) = (header.width, header.height);
-    let bytes_per_pixel = if header.bit_depth == BitDepth::Sixteen { 6 } else { 3 };
-    limits.check(width, height, bytes_per_pixel)?;
+    let bytes_per_sample = if header.bit_depth == BitDepth::Sixteen { 2 } else { 1 };
+    limits.check(width, height, 3 * bytes_per_sample)?;
     decoder.set_limits(::png::Limits { bytes: usize::try_from(limits.max_bytes).unwrap_or(usize::MAX) });
     let mut reader = decoder.read_info().map_err(decode_error)?;
+    let (color, depth) = reader.output_color_type();
+    // Only now it is known whether a palette or a transparent colour makes an alpha channel.
+    let has_alpha = matches!(color, ColorType::GrayscaleAlpha | ColorType::Rgba);
+    limits.check(width, height, bytes_per_sample * if has_alpha { 4 } else { 3 })?;
     let size = reader.output_buffer_size().ok_or_else(|| corrupt("the size is too large".into()))?;
     let mut samples = vec![0; size];
     reader.next_frame(&mut samples).map_err(decode_error)?;
     // Damage after the picture shows as well: the file must end as it should.
     reader.finish().map_err(decode_error)?;
-    let (color, depth) = reader.output_color_type();
-    let (texels, alpha_dropped) = if depth == BitDepth::Sixteen {
+    let (texels, alpha) = if depth == BitDepth::Sixteen {
         let words: Vec<u16> = samples.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]])).collect();
-        let (texels, alpha_dropped) = colors(&words, color, u16::MAX);
-        (Texels::U16(texels), alpha_dropped)
+        (Texels::U16(colors(&words, color)), alphas(&words, color, u16::MAX).map(Alpha::U16))
     } else {
-        let (texels, alpha_dropped) = colors(&samples, color, u8::MAX);
-        (Texels::U8(texels), alpha_dropped)
+        (Texels::U8(colors(&samples, color)), alphas(&samples, color, u8::MAX).map(Alpha::U8))
     };
-    Ok(Bitmap { width, height, texels, alpha_dropped })
+    Ok(Bitmap { width, height, texels, alpha })
 }
 
-/// Colours from samples, and whether any alpha is less than `opaque`.
-fn colors<T: Copy + PartialEq>(samples: &[T], color: ColorType, opaque: T) -> (Vec<[T; 3]>, bool) {
+/// Colours from samples.
+fn colors<T: Copy>(samples: &[T], color: ColorType) -> Vec<[T; 3]> {
     match color {
         // The EXPAND transformation leaves no palette.
-        ColorType::Grayscale | ColorType::Indexed => (samples.iter().map(|&v| [v; 3]).collect(), false),
-        ColorType::Rgb => (samples.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect(), false),
-        ColorType::GrayscaleAlpha => (
-            samples.chunks_exact(2).map(|p| [p[0]; 3]).collect(),
-            samples.chunks_exact(2).any(|pixel| pixel[1] != opaque),
-        ),
-        ColorType::Rgba => (
-            samples.chunks_exact(4).map(|p| [p[0], p[1], p[2]]).collect(),
-            samples.chunks_exact(4).any(|pixel| pixel[3] != opaque),
-        ),
+        ColorType::Grayscale | ColorType::Indexed => samples.iter().map(|&v| [v; 3]).collect(),
+        ColorType::Rgb => samples.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect(),
+        ColorType::GrayscaleAlpha => samples.chunks_exact(2).map(|p| [p[0]; 3]).collect(),
+        ColorType::Rgba => samples.chunks_exact(4).map(|p| [p[0], p[1], p[2]]).collect(),
     }
+}
+
+/// Alphas from samples, if any is less than `opaque`.
+fn alphas<T: Copy + PartialEq>(samples: &[T], color: ColorType, opaque: T) -> Option<Vec<T>> {
+    let channels = match color {
+        ColorType::Grayscale | ColorType::Indexed | ColorType::Rgb => return None,
+        ColorType::GrayscaleAlpha => 2,
+        ColorType::Rgba => 4,
+    };
+    let alphas = || samples.chunks_exact(channels).map(|pixel| pixel[channels - 1]);
+    alphas().any(|alpha| alpha != opaque).then(|| alphas().collect())
 }
 
 fn corrupt(detail: String) -> DecodeError {

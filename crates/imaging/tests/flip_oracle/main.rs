@@ -11,7 +11,7 @@ type Texel = [u8; 3];
 
 fn image(texels: &[Texel]) -> Image {
     let texels = Texels::U8(texels.to_vec());
-    Bitmap { width: WIDTH, height: HEIGHT, texels, alpha_dropped: false }.to_image(Transfer::Srgb)
+    Bitmap { width: WIDTH, height: HEIGHT, texels, alpha: None }.to_image(Transfer::Srgb)
 }
 
 fn picture(texel: impl Fn(u32, u32) -> Texel) -> Vec<Texel> {

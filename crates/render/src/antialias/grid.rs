@@ -9,16 +9,25 @@ pub(crate) struct Grid {
 }
 
 impl Antialias for Grid {
+    fn certain(&self, corner: DVec2, points: &mut Vec<DVec2>) {
+        points.extend(self.points(corner));
+    }
+
     fn pixel(&self, corner: DVec2, samples: &mut impl Samples) {
-        let cell = 1.0 / f64::from(self.n);
         let weight = 1.0 / (self.n * self.n) as f32;
-        for row in 0..self.n {
-            for column in 0..self.n {
-                let within = DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5) * cell;
-                let sample = samples.take(corner + within);
-                samples.keep(weight, sample);
-            }
+        for point in self.points(corner) {
+            let sample = samples.take(point);
+            samples.keep(weight, sample);
         }
+    }
+}
+
+impl Grid {
+    fn points(&self, corner: DVec2) -> impl Iterator<Item = DVec2> {
+        let n = self.n;
+        let cell = 1.0 / f64::from(n);
+        let within = move |row: u32, column: u32| DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5) * cell;
+        (0..n).flat_map(move |row| (0..n).map(move |column| corner + within(row, column)))
     }
 }
 

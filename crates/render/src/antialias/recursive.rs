@@ -16,6 +16,10 @@ pub(crate) struct Recursive {
 const QUARTERS: [(f64, f64); 4] = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
 
 impl Antialias for Recursive {
+    fn certain(&self, corner: DVec2, points: &mut Vec<DVec2>) {
+        points.extend(quarters(corner, 1.0));
+    }
+
     fn pixel(&self, corner: DVec2, samples: &mut impl Samples) {
         self.square(corner, 1.0, 0, samples);
     }
@@ -23,7 +27,7 @@ impl Antialias for Recursive {
 
 impl Recursive {
     fn square(&self, corner: DVec2, side: f64, divisions: u32, samples: &mut impl Samples) {
-        let four = QUARTERS.map(|(x, y)| samples.take(corner + DVec2::new(x, y) * side));
+        let four = quarters(corner, side).map(|point| samples.take(point));
         let differs = |s: &Sample| difference(four[0].color, s.color) > self.threshold;
         if divisions < self.max_depth && four[1..].iter().any(differs) {
             for (x, y) in QUARTERS {
@@ -38,6 +42,11 @@ impl Recursive {
             }
         }
     }
+}
+
+/// Middles of the quarters of a square.
+fn quarters(corner: DVec2, side: f64) -> [DVec2; 4] {
+    QUARTERS.map(|(x, y)| corner + DVec2::new(x, y) * side)
 }
 
 /// The sum of the differences of the components, of colours as they are (linear).

@@ -7,7 +7,8 @@
 use super::Integrator;
 use crate::background::background;
 use crate::compile::CompiledScene;
-use crate::materials::{reflect, refract};
+use crate::holes::{Known, meet};
+use crate::materials::refract;
 use crate::media::{Media, Undo};
 use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Source, SurfaceSeen};
 use crate::shading::{Shading, highlight};
@@ -19,10 +20,10 @@ use durer_math::{DVec3, Rgb};
 pub(crate) struct Whitted;
 
 impl Integrator for Whitted {
-    fn radiance<O: Observer>(&self, scene: &CompiledScene, ray: &Ray, observer: &mut O) -> Rgb {
-        let media = if scene.eye_in_medium { Media::around(scene, ray) } else { Media::default() };
+    fn radiance<O: Observer>(&self, scene: &CompiledScene, ray: &Ray, known: Known<'_>, observer: &mut O) -> Rgb {
+        let media = if scene.media_at_eye.is_empty() { Media::default() } else { Media::around(scene, ray) };
         let mut path = Path { scene, media, sum: Rgb::BLACK, observer };
-        path.trace(RayKind::Eye, 1, ray, Rgb::WHITE);
+        path.trace(RayKind::Eye, 1, ray, Rgb::WHITE, known);
         path.sum
     }
 }
@@ -46,20 +47,24 @@ struct Boundary {
 
 impl<O: Observer> Path<'_, O> {
     /// Adds what arrives along a ray, times its weight.
-    fn trace(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb) {
+    fn trace(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb, known: Known<'_>) {
         self.observer.ray_begins(kind, depth, ray, weight);
-        let vantage = if kind == RayKind::Eye { self.scene.eye_vantage.as_ref() } else { None };
-        let hit = self.scene.world.closest_hit(ray, f64::INFINITY, u32::MAX, vantage);
-        let length = hit.map_or(f64::INFINITY, |hit| hit.crossing.t);
-        let weight = self.along(length, weight);
-        match hit {
+        let met = meet(self.scene, ray, known, self.observer);
+        let weight = self.along(met.length, weight);
+        match met.hit {
             None => self.add(Source::Background, weight * background(&self.scene.background, ray.direction)),
             Some(hit) => {
-                let shading = Shading::at(self.scene, ray, &hit);
-                let (surface, color, from_outside) = (shading.surface, shading.color, shading.from_outside);
-                self.observer.surface(&SurfaceSeen { hit, surface, color, from_outside });
-                self.shade(&shading, weight);
-                self.go_on(&shading, depth, weight);
+                let shading = Shading::at(self.scene, &met.ray, &hit);
+                let Shading { surface, normal, color, opacity, from_outside, .. } = shading;
+                let length = met.length;
+                self.observer.surface(&SurfaceSeen { hit, length, surface, normal, color, opacity, from_outside });
+                if !opacity.is_black() {
+                    self.shade(&shading, weight * opacity);
+                    self.go_on(&shading, depth, weight * opacity);
+                }
+                if opacity != Rgb::WHITE {
+                    self.go_past(&shading, depth, weight * (Rgb::WHITE - opacity));
+                }
             }
         }
         self.observer.ray_ends();
@@ -79,9 +84,12 @@ impl<O: Observer> Path<'_, O> {
         weight
     }
 
-    /// Ambient and direct light given back by the surface itself.
+    /// What the surface gives off, and ambient and direct light that it gives back.
     fn shade(&mut self, shading: &Shading<'_>, weight: Rgb) {
         let material = shading.material;
+        if !material.emission.is_black() {
+            self.add(Source::Emission, weight * material.emission);
+        }
         let weight = weight * (Rgb::WHITE - material.transparency);
         if weight.is_black() {
             return;
@@ -96,7 +104,7 @@ impl<O: Observer> Path<'_, O> {
                 self.observer.light(&LightSeen { index, distance: None, cosine, visibility });
                 continue;
             };
-            let cosine = shading.normal.dot(arriving.direction);
+            let cosine = shading.cosine(arriving.direction);
             let mut visible = Rgb::BLACK;
             if cosine > 0.0 {
                 self.observer.shadow_ray();
@@ -125,8 +133,7 @@ impl<O: Observer> Path<'_, O> {
         // What cannot get through comes from the mirrored direction, like what a mirror adds: one ray serves both.
         let mirrored = weight * material.reflection + behind * (1.0 - boundary.passed);
         if !mirrored.is_black() {
-            let ray = shading.ray_back(reflect(shading.direction, shading.normal));
-            self.follow(RayKind::Reflected, depth, &ray, mirrored);
+            self.follow(RayKind::Reflected, depth, &shading.mirrored(), mirrored);
         }
         if material.is_clear()
             && let Some(direction) = boundary.onward
@@ -139,6 +146,16 @@ impl<O: Observer> Path<'_, O> {
             self.follow(RayKind::Transmitted, depth, &ray, behind * boundary.passed);
             self.media.undo(undo);
         }
+    }
+
+    /// What lies behind where the surface is not there. No medium begins there, but one that the ray is in ends.
+    fn go_past(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb) {
+        let undo = match shading.bounds_medium && !shading.from_outside {
+            true => self.media.cross(shading.primitive, false),
+            false => Undo::Nothing,
+        };
+        self.follow(RayKind::Transmitted, depth, &shading.ray_on(shading.direction), weight);
+        self.media.undo(undo);
     }
 
     /// How light gets through a surface that it may get through. Only the boundaries of media bend it; a clear sheet has
@@ -172,7 +189,7 @@ impl<O: Observer> Path<'_, O> {
         } else if weight.max_component() < settings.min_weight || weight.is_black() {
             self.observer.not_traced(kind, weight, NotTraced::TooFaint);
         } else {
-            self.trace(kind, depth + 1, ray, weight);
+            self.trace(kind, depth + 1, ray, weight, Known::Nothing);
         }
     }
 

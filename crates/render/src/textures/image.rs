@@ -16,15 +16,18 @@ pub(super) struct Image {
     mapping: Mapping,
     wrap: Wrap,
     filter: Filter,
+    /// Multiplies what is found.
+    tint: Rgb,
 }
 
 impl Image {
     pub(super) fn new(texture: &ImageTexture, bitmap: &Arc<Bitmap>, tables: &mut Tables) -> Image {
         Image {
-            texels: Texels::new(bitmap, texture.encoding, tables),
+            texels: Texels::new(bitmap, texture.channels, texture.encoding, tables),
             mapping: texture.mapping,
             wrap: texture.wrap,
             filter: texture.filter,
+            tint: texture.tint,
         }
     }
 
@@ -33,10 +36,11 @@ impl Image {
         let place = place_on_image(self.mapping, point);
         let [width, height] = self.texels.size();
         let in_pixels = place * DVec2::new(f64::from(width), f64::from(height));
-        match self.filter {
+        let found = match self.filter {
             Filter::Nearest => self.pixel(cell(in_pixels.x), cell(in_pixels.y)),
             Filter::Bilinear => self.bilinear(in_pixels - 0.5),
-        }
+        };
+        found * self.tint
     }
 
     /// Blends the four pixels around a place that counts pixels from centre to centre.
@@ -73,7 +77,7 @@ fn around_y(p: DVec3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use durer_imaging::Texels as Stored;
+    use durer_imaging::{Alpha, Texels as Stored};
     use durer_scene::{Channels, Encoding, ImageId};
 
     const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror];
@@ -83,7 +87,7 @@ mod tests {
         let [width, height] = size;
         let pixel = |i: u32| [(i % width) as f32, (height - 1 - i / width) as f32, 0.0];
         let texels = Stored::F32((0..width * height).map(pixel).collect());
-        let bitmap = Arc::new(Bitmap { width, height, texels, alpha_dropped: false });
+        let bitmap = Arc::new(Bitmap { width, height, texels, alpha: None });
         let texture = ImageTexture {
             image: ImageId(0),
             mapping,
@@ -152,7 +156,7 @@ mod tests {
     #[test]
     fn bilinear_blends_light() {
         let texels = Stored::U8(vec![[0; 3], [255; 3]]);
-        let bitmap = Arc::new(Bitmap { width: 2, height: 1, texels, alpha_dropped: false });
+        let bitmap = Arc::new(Bitmap { width: 2, height: 1, texels, alpha: None });
         let texture = ImageTexture {
             image: ImageId(0),
             mapping: Mapping::Uv,
@@ -164,6 +168,24 @@ mod tests {
         };
         let color = Image::new(&texture, &bitmap, &mut Tables::default()).color(DVec3::new(0.5, 0.5, 0.0));
         assert!((color.r - 0.5).abs() < 1e-6, "{color:?}");
+    }
+
+    /// Three quarters of the way from nothing to all, of alpha; the tint multiplies it.
+    #[test]
+    fn alpha_is_blended_and_tinted() {
+        let (texels, alpha) = (Stored::U8(vec![[7; 3]; 2]), Some(Alpha::U8(vec![0, 255])));
+        let bitmap = Arc::new(Bitmap { width: 2, height: 1, texels, alpha });
+        let texture = ImageTexture {
+            image: ImageId(0),
+            mapping: Mapping::Uv,
+            wrap: Wrap::Clamp,
+            filter: Filter::Bilinear,
+            encoding: Encoding::Srgb,
+            channels: Channels::Alpha,
+            tint: Rgb::new(1.0, 0.5, 2.0),
+        };
+        let color = Image::new(&texture, &bitmap, &mut Tables::default()).color(DVec3::new(0.625, 0.5, 0.0));
+        assert_eq!(color, Rgb::new(0.75, 0.375, 1.5));
     }
 
     /// The label of the seed scene's cylinder: s = (atan2(z, x) + π) / 2π, t = (y + 8) / 16.

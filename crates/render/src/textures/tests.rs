@@ -148,7 +148,7 @@ fn blends_nest_deeply() {
 #[test]
 fn an_image_on_uv_is_placed_by_its_transform() {
     let texels = Texels::F32(vec![[0.0; 3], [1.0; 3], [2.0; 3], [3.0; 3]]);
-    let bitmap = Arc::new(Bitmap { width: 2, height: 2, texels, alpha_dropped: false });
+    let bitmap = Arc::new(Bitmap { width: 2, height: 2, texels, alpha: None });
     let image = |mapping| {
         Described::Image(ImageTexture {
             image: ImageId(0),

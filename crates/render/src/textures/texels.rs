@@ -3,13 +3,14 @@
 
 use durer_imaging::{Bitmap, Texels as Stored, linear_from_srgb};
 use durer_math::Rgb;
-use durer_scene::Encoding;
+use durer_scene::{Channels, Encoding};
 use std::sync::Arc;
 
 /// An image's pixels, to be read as linear light.
 #[derive(Debug)]
 pub(super) struct Texels {
     bitmap: Arc<Bitmap>,
+    channels: Channels,
     /// What each number that the file can hold means; empty for floating point, which is linear light already.
     linear_from_stored: Arc<[f32]>,
 }
@@ -44,8 +45,13 @@ impl Tables {
 }
 
 impl Texels {
-    pub(super) fn new(bitmap: &Arc<Bitmap>, encoding: Encoding, tables: &mut Tables) -> Texels {
-        Texels { bitmap: bitmap.clone(), linear_from_stored: tables.get(&bitmap.texels, encoding) }
+    pub(super) fn new(bitmap: &Arc<Bitmap>, channels: Channels, encoding: Encoding, tables: &mut Tables) -> Texels {
+        let linear_from_stored = match channels {
+            Channels::Color => tables.get(&bitmap.texels, encoding),
+            // Alpha is linear whatever the colours are.
+            Channels::Alpha => Arc::default(),
+        };
+        Texels { bitmap: bitmap.clone(), channels, linear_from_stored }
     }
 
     /// Width and height in pixels.
@@ -57,6 +63,13 @@ impl Texels {
     pub(super) fn get(&self, column: u32, row_from_below: u32) -> Rgb {
         let row = self.bitmap.height - 1 - row_from_below;
         let index = row as usize * self.bitmap.width as usize + column as usize;
+        match self.channels {
+            Channels::Color => self.color(index),
+            Channels::Alpha => Rgb::gray(self.bitmap.alpha.as_ref().map_or(1.0, |alpha| alpha.get(index))),
+        }
+    }
+
+    fn color(&self, index: usize) -> Rgb {
         let table = &self.linear_from_stored;
         match &self.bitmap.texels {
             Stored::U8(texels) => texels[index].map(|number| table[usize::from(number)]).into(),
@@ -69,10 +82,24 @@ impl Texels {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use durer_imaging::Alpha;
 
     fn texels(stored: Stored, encoding: Encoding, tables: &mut Tables) -> Texels {
-        let bitmap = Bitmap { width: 1, height: 2, texels: stored, alpha_dropped: false };
-        Texels::new(&Arc::new(bitmap), encoding, tables)
+        let bitmap = Bitmap { width: 1, height: 2, texels: stored, alpha: None };
+        Texels::new(&Arc::new(bitmap), Channels::Color, encoding, tables)
+    }
+
+    #[test]
+    fn alpha_is_gray_and_follows_no_curve() {
+        let show = |alpha| {
+            let bitmap = Bitmap { width: 1, height: 2, texels: Stored::U8(vec![[9; 3]; 2]), alpha };
+            let image = Texels::new(&Arc::new(bitmap), Channels::Alpha, Encoding::Srgb, &mut Tables::default());
+            [image.get(0, 1), image.get(0, 0)]
+        };
+        assert_eq!(show(Some(Alpha::U8(vec![51, 255]))), [Rgb::gray(0.2), Rgb::WHITE]);
+        assert_eq!(show(Some(Alpha::U16(vec![13107, 0]))), [Rgb::gray(0.2), Rgb::BLACK]);
+        assert_eq!(show(Some(Alpha::F32(vec![0.25, 1.0]))), [Rgb::gray(0.25), Rgb::WHITE]);
+        assert_eq!(show(None), [Rgb::WHITE; 2], "a picture without alpha is all there");
     }
 
     #[test]

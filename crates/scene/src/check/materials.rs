@@ -12,6 +12,8 @@ pub(super) fn check(c: &mut Checker<'_>) {
 
 fn material(c: &mut Checker<'_>, material: &Material) {
     c.field("color", |c| paint(c, "color", material.color));
+    c.field("opacity", |c| paint(c, "opacity", material.opacity));
+    c.light("emission", material.emission);
     c.strength("ambient", material.ambient);
     c.strength("diffuse", material.diffuse);
     c.light("specular", material.specular);

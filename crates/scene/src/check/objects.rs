@@ -1,42 +1,66 @@
 //! Objects: their shapes, transforms and materials.
 
-use super::Step;
-use super::values::Checker;
-use crate::{MaterialId, Object, ObjectKind, Shape};
-use durer_math::{DAffine3, DVec2, DVec3};
+use super::values::{Around, Checker};
+use super::{Step, instances, meshes, particles, settings, solids};
+use crate::{Import, MaterialId, Object, ObjectKind, Shape};
+use durer_math::{DVec2, DVec3};
 
-/// How deep groups may nest.
-const DEEPEST: usize = 64;
+/// How deep objects may nest.
+pub(super) const DEEPEST: usize = 64;
 
 pub(super) fn check(c: &mut Checker<'_>) {
     let objects = &c.scene.objects;
-    c.field("objects", |c| all(c, objects, DAffine3::IDENTITY, 1));
+    c.field("objects", |c| {
+        all(c, objects, Around::WORLD, 1);
+        instances::count(c, objects);
+    });
 }
 
-fn all(c: &mut Checker<'_>, objects: &[Object], outer: DAffine3, depth: usize) {
+/// Objects in a list, `depth` being 1 for those of the scene.
+pub(super) fn all(c: &mut Checker<'_>, objects: &[Object], around: Around, depth: usize) {
     for (at, one) in objects.iter().enumerate() {
-        c.at(Step::Index(at), |c| object(c, one, outer, depth));
+        c.at(Step::Index(at), |c| object(c, one, around, depth));
     }
 }
 
-fn object(c: &mut Checker<'_>, object: &Object, outer: DAffine3, depth: usize) {
+fn object(c: &mut Checker<'_>, object: &Object, around: Around, depth: usize) {
     c.field(object.kind.word(), |c| {
         if depth > DEEPEST {
             c.problem(format!("groups may nest at most {DEEPEST} deep"));
             return;
         }
-        if let Some(MaterialId(id)) = object.material {
-            c.require((id as usize) < c.scene.materials.len(), "material", format!("there is no material {id}"));
-        }
-        let world_from_object = c.transform(&object.transform, outer);
+        c.field("material", |c| material(c, object.material));
+        let inside = c.transform(&object.transform, around);
         match &object.kind {
             ObjectKind::Shape(shape) => self::shape(c, shape),
-            ObjectKind::Group(members) => c.field("objects", |c| all(c, members, world_from_object, depth + 1)),
-            ObjectKind::Mesh(_)
-            | ObjectKind::Particles(_)
-            | ObjectKind::Instances(_)
-            | ObjectKind::Import(_)
-            | ObjectKind::Solid(_) => todo!(),
+            ObjectKind::Group(members) => c.field("objects", |c| all(c, members, inside, depth + 1)),
+            ObjectKind::Mesh(mesh) => meshes::check(c, mesh),
+            ObjectKind::Particles(many) => particles::check(c, many),
+            ObjectKind::Instances(copies) => instances::check(c, copies, inside, depth),
+            ObjectKind::Import(import) => self::import(c, import, inside, depth),
+            ObjectKind::Solid(solid) => solids::check(c, solid, inside, depth),
+        }
+    });
+}
+
+/// That a material exists.
+pub(super) fn material(c: &mut Checker<'_>, material: Option<MaterialId>) {
+    if let Some(MaterialId(id)) = material
+        && id as usize >= c.scene.materials.len()
+    {
+        c.problem(format!("there is no material {id}"));
+    }
+}
+
+/// What is in a file has no place but the name of the file.
+fn import(c: &mut Checker<'_>, import: &Import, inside: Around, depth: usize) {
+    c.field("file", |c| {
+        c.field("objects", |c| all(c, &import.objects, inside, depth + 1));
+        for (at, light) in import.lights.iter().enumerate() {
+            c.field("lights", |c| c.at(Step::Index(at), |c| settings::light(c, light)));
+        }
+        if let Some(camera) = &import.camera {
+            c.field("camera", |c| settings::camera(c, camera));
         }
     });
 }

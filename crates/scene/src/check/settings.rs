@@ -33,7 +33,7 @@ pub(super) fn check(c: &mut Checker<'_>) {
     });
 }
 
-fn camera(c: &mut Checker<'_>, camera: &Camera) {
+pub(super) fn camera(c: &mut Checker<'_>, camera: &Camera) {
     let &Camera { position, look_at, up, projection } = camera;
     let points = c.point("position", position) & c.point("look_at", look_at);
     let up_is_fine = c.direction("up", up);
@@ -125,7 +125,7 @@ fn fog(c: &mut Checker<'_>, fog: Fog) {
     }
 }
 
-fn light(c: &mut Checker<'_>, light: &Light) {
+pub(super) fn light(c: &mut Checker<'_>, light: &Light) {
     let word = match light.kind {
         LightKind::Point { .. } => "point",
         LightKind::Spot { .. } => "spot",

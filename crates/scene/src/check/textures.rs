@@ -1,10 +1,9 @@
 //! Textures: their numbers, and that none is made of itself.
 
 use super::Step;
-use super::values::Checker;
+use super::values::{Around, Checker};
 use crate::{ImageId, Mapping, Paint, Pattern, Texture, TextureId};
-use durer_imaging::Texels;
-use durer_math::DAffine3;
+use durer_imaging::{Alpha, Bitmap, Texels};
 
 /// How deep textures may be made of textures.
 const DEEPEST: usize = 32;
@@ -29,19 +28,30 @@ fn images(c: &mut Checker<'_>) {
             Texels::U16(texels) => texels.len(),
             Texels::F32(texels) => texels.len(),
         };
+        let alphas = bitmap.alpha.as_ref().map_or(texels, Alpha::len);
         let fine = texels > 0 && texels as u64 == u64::from(bitmap.width) * u64::from(bitmap.height);
-        if !fine {
+        if !fine || alphas != texels {
             c.at(Step::Image(ImageId(id)), |c| c.problem("the image's pixels do not fill its width and height"));
         }
-        if let Texels::F32(texels) = &bitmap.texels
-            && let Some(at) = texels.iter().position(|texel| texel.iter().any(|value| !value.is_finite()))
-        {
+        if let Some(at) = first_not_finite(bitmap) {
             let (x, y) = (at as u64 % u64::from(bitmap.width.max(1)), at as u64 / u64::from(bitmap.width.max(1)));
             c.at(Step::Image(ImageId(id)), |c| {
                 c.problem(format!("the image's pixel {x},{y} is infinite or not a number"))
             });
         }
     }
+}
+
+fn first_not_finite(bitmap: &Bitmap) -> Option<usize> {
+    let color = match &bitmap.texels {
+        Texels::F32(texels) => texels.iter().position(|texel| texel.iter().any(|value| !value.is_finite())),
+        Texels::U8(_) | Texels::U16(_) => None,
+    };
+    let alpha = || match &bitmap.alpha {
+        Some(Alpha::F32(alphas)) => alphas.iter().position(|alpha| !alpha.is_finite()),
+        Some(Alpha::U8(_) | Alpha::U16(_)) | None => None,
+    };
+    color.or_else(alpha)
 }
 
 impl Pattern {
@@ -77,7 +87,7 @@ impl Pattern {
 fn texture(c: &mut Checker<'_>, texture: &Texture) {
     let Texture { name: _, transform, pattern } = texture;
     c.field(pattern.word(), |c| {
-        c.transform(transform, DAffine3::IDENTITY);
+        c.transform(transform, Around::WORLD);
         c.field("colors", |c| colors(c, pattern));
         match *pattern {
             Pattern::Checker { size, .. } => _ = c.size("size", size),
@@ -87,6 +97,7 @@ fn texture(c: &mut Checker<'_>, texture: &Texture) {
             Pattern::Image(ref image) => {
                 let ImageId(id) = image.image;
                 c.require((id as usize) < c.scene.images.len(), "file", format!("there is no image {id}"));
+                c.light("tint", image.tint);
                 if let Mapping::Cylindrical { half_height } = image.mapping {
                     c.field("mapping", |c| c.field("cylindrical", |c| c.size("half_height", half_height)));
                 }

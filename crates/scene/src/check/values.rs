@@ -1,17 +1,35 @@
 //! Single values: numbers, vectors, colours, transforms.
 
+use super::bounds::{
+    BRIGHTEST, LARGEST, LARGEST_FACTOR, SMALLEST, are_apart, changes_lengths_by, is_near, wrong_with_fraction,
+    wrong_with_point, wrong_with_size, wrong_with_size_or_zero,
+};
 use super::{Place, Problem, Step};
 use crate::{Scene, Transform, TransformStep};
-use durer_math::{DAffine3, DMat3, DVec3, Rgb};
+use durer_math::{DAffine3, DVec3, Rgb};
+use std::collections::BTreeSet;
 
-/// The largest coordinate or length.
-const LARGEST: f64 = 1e12;
-/// The smallest radius, width, distance, or length of a direction.
-const SMALLEST: f64 = 1e-9;
-/// The largest factor by which a transform may change a length.
-const LARGEST_FACTOR: f64 = 1e9;
-/// The brightest light or background.
-const BRIGHTEST: f32 = 1e6;
+/// What an object stands in.
+#[derive(Clone, Copy)]
+pub(super) struct Around {
+    /// From there to the world; with instances, that of the first copy and without their scale.
+    pub(super) map: DAffine3,
+    /// The least factor by which instances scale it.
+    pub(super) least: f64,
+    /// The greatest.
+    pub(super) most: f64,
+}
+
+impl Around {
+    /// Nothing around.
+    pub(super) const WORLD: Around = Around { map: DAffine3::IDENTITY, least: 1.0, most: 1.0 };
+
+    /// True if all together are reversible and change no length too much, nor move too far.
+    pub(super) fn is_usable(&self) -> bool {
+        let Around { map, least, most } = *self;
+        changes_lengths_by(map.matrix3, least, most) && is_near(map.translation)
+    }
+}
 
 /// Gathers problems on the way through a scene.
 pub(super) struct Checker<'s> {
@@ -19,11 +37,13 @@ pub(super) struct Checker<'s> {
     pub(super) problems: Vec<Problem>,
     /// Where the check is now.
     place: Vec<Step>,
+    /// Addresses of the meshes that have been checked: several objects may share one.
+    pub(super) meshes: BTreeSet<usize>,
 }
 
 impl<'s> Checker<'s> {
     pub(super) fn new(scene: &'s Scene) -> Self {
-        Checker { scene, problems: Vec::new(), place: Vec::new() }
+        Checker { scene, problems: Vec::new(), place: Vec::new(), meshes: BTreeSet::new() }
     }
 
     /// Checks something one step further down.
@@ -68,22 +88,14 @@ impl<'s> Checker<'s> {
 
     /// A radius, width or distance.
     pub(super) fn size(&mut self, name: &'static str, value: f64) -> bool {
-        let message = if value > LARGEST {
-            format!("{name} must be at most {LARGEST:e}")
-        } else if value > 0.0 {
-            format!("{name} must be at least {SMALLEST:e}")
-        } else {
-            format!("{name} must be above 0")
-        };
-        self.require((SMALLEST..=LARGEST).contains(&value), name, message)
+        let wrong = wrong_with_size(name, value);
+        wrong.is_none_or(|message| self.require(false, name, message))
     }
 
     /// A size that may also be 0.
     pub(super) fn size_or_zero(&mut self, name: &'static str, value: f64) -> bool {
-        if value < 0.0 {
-            return self.field(name, |c| c.problem(format!("{name} must not be negative")));
-        }
-        value == 0.0 || self.size(name, value)
+        let wrong = wrong_with_size_or_zero(name, value);
+        wrong.is_none_or(|message| self.require(false, name, message))
     }
 
     /// A point.
@@ -93,11 +105,7 @@ impl<'s> Checker<'s> {
 
     /// A point that is what the check has come to.
     pub(super) fn point_here(&mut self, name: &str, point: DVec3) -> bool {
-        if !point.is_finite() {
-            return self.problem(format!("{name} must be finite"));
-        }
-        point.abs().max_element() <= LARGEST
-            || self.problem(format!("the coordinates of {name} must be at most {LARGEST:e} in size"))
+        wrong_with_point(name, point).is_none_or(|message| self.problem(message))
     }
 
     /// A direction of any usable length.
@@ -118,7 +126,7 @@ impl<'s> Checker<'s> {
 
     /// Two points that must not coincide.
     pub(super) fn apart(&mut self, (name, point): (&'static str, DVec3), (other, from): (&str, DVec3)) -> bool {
-        self.require((point - from).length() >= SMALLEST, name, format!("{name} must not be the same point as {other}"))
+        self.require(are_apart(point, from), name, format!("{name} must not be the same point as {other}"))
     }
 
     /// Light: no component negative.
@@ -138,16 +146,10 @@ impl<'s> Checker<'s> {
 
     /// A part of light that is what the check has come to.
     pub(super) fn fraction_here(&mut self, name: &str, color: Rgb) -> bool {
-        if !color.is_finite() {
-            return self.problem(format!("{name} must be finite"));
+        let Some(message) = wrong_with_fraction(name, color) else { return true };
+        if !color.is_finite() || color.min_component() < 0.0 {
+            return self.problem(message);
         }
-        if color.min_component() < 0.0 {
-            return self.problem(format!("{name} must not be negative"));
-        }
-        if color.max_component() <= 1.0 {
-            return true;
-        }
-        let message = format!("{name} must not be above 1");
         let help = "components go from 0 to 1";
         if color.max_component() <= 255.0 && color.to_array().iter().all(|x| x.fract() == 0.0) {
             let [r, g, b] = color.to_array().map(|x| x as u8);
@@ -166,9 +168,9 @@ impl<'s> Checker<'s> {
         self.require((0.0..=BRIGHTEST).contains(&value), name, message)
     }
 
-    /// The field `transform`, and it together with those around it, which are `outer`. Gives all of them in one map,
-    /// or only the outer if this one cannot be used.
-    pub(super) fn transform(&mut self, transform: &Transform, outer: DAffine3) -> DAffine3 {
+    /// The field `transform`, and it together with those around it. Gives all of them in one, or only the outer if this
+    /// one cannot be used.
+    pub(super) fn transform(&mut self, transform: &Transform, outer: Around) -> Around {
         self.field("transform", |c| {
             let mut fine = true;
             for (at, step) in transform.steps.iter().enumerate() {
@@ -177,8 +179,8 @@ impl<'s> Checker<'s> {
             if !fine {
                 return outer;
             }
-            let all = outer * transform.to_affine();
-            if is_usable(all.matrix3) && all.translation.is_finite() && all.translation.abs().max_element() <= LARGEST {
+            let all = Around { map: outer.map * transform.to_affine(), ..outer };
+            if all.is_usable() {
                 return all;
             }
             c.problem_with_help(
@@ -202,7 +204,7 @@ impl<'s> Checker<'s> {
                 if !finite {
                     return c.problem(format!("the numbers of a matrix must be at most {LARGEST:e} in size"));
                 }
-                is_usable(step.to_affine().matrix3)
+                changes_lengths_by(step.to_affine().matrix3, 1.0, 1.0)
                     || c.problem_with_help(
                         "this matrix cannot be reversed",
                         "its first three columns must point in different directions",
@@ -222,13 +224,4 @@ impl<'s> Checker<'s> {
         let fine = by.abs().max_element() <= LARGEST_FACTOR && by.abs().min_element() >= 1.0 / LARGEST_FACTOR;
         fine || self.problem(format!("scale must be between {:e} and {LARGEST_FACTOR:e}", 1.0 / LARGEST_FACTOR))
     }
-}
-
-/// True if the map and its inverse change no length by more than the largest factor. (Frobenius norms bound it from
-/// above; comparisons are false for NaN.)
-fn is_usable(m: DMat3) -> bool {
-    let norm = |m: DMat3| m.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
-    // √3 is the norm of the identity.
-    let most = LARGEST_FACTOR * 1.75;
-    m.is_finite() && m.determinant() != 0.0 && norm(m) <= most && norm(m.inverse()) <= most
 }

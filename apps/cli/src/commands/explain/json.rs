@@ -3,7 +3,9 @@
 use super::{Explained, words};
 use crate::labels;
 use durer::math::{DVec3, Rgb};
-use durer::{Contribution, HitExplanation, LightExplanation, RayExplanation, SampleExplanation};
+use durer::{
+    Contribution, HitExplanation, HoleExplanation, LightExplanation, RayExplanation, SampleExplanation,
+};
 use serde_json::{Value, json};
 
 impl Explained<'_> {
@@ -39,6 +41,7 @@ impl Explained<'_> {
             "origin": xyz(ray.origin),
             "direction": xyz(ray.direction),
             "weight": rgb(ray.weight),
+            "holes": ray.holes.iter().map(|hole| self.hole_json(hole)).collect::<Vec<_>>(),
             "hit": ray.hit.as_ref().map(|hit| self.hit_json(hit)),
             "lights": ray.lights.iter().map(|light| self.light_json(light)).collect::<Vec<_>>(),
             "contributions": ray.contributions.iter().map(contribution).collect::<Vec<_>>(),
@@ -48,17 +51,31 @@ impl Explained<'_> {
     }
 
     fn hit_json(&self, hit: &HitExplanation) -> Value {
-        let label = self.shapes.get(hit.shape);
+        let label = self.shapes.label(hit.shape);
+        let label = label.as_ref();
         json!({
             "shape": hit.shape,
             "kind": label.map(|label| label.kind),
-            "name": label.and_then(|label| label.name.as_deref()),
+            "name": label.and_then(|label| label.name),
             "place": label.map(|label| label.place.as_str()),
+            "element": words::element_json(hit.element),
+            "material": hit.material.map(|id| id.0),
             "distance": hit.distance,
             "point": xyz(hit.point),
             "normal": xyz(hit.normal),
+            "shading_normal": xyz(hit.shading_normal),
             "from_outside": hit.from_outside,
             "color": rgb(hit.color),
+            "opacity": rgb(hit.opacity),
+        })
+    }
+
+    fn hole_json(&self, hole: &HoleExplanation) -> Value {
+        json!({
+            "shape": hole.shape,
+            "place": self.shapes.label(hole.shape).map(|label| label.place),
+            "element": words::element_json(hole.element),
+            "distance": hole.distance,
         })
     }
 

@@ -74,6 +74,10 @@ impl Explained<'_> {
     /// What the ray itself met and brought.
     fn of_ray(&self, page: &mut Ledger, ray: &RayExplanation) {
         page.line(&format!("from {} towards {}", vector(ray.origin), vector(ray.direction)));
+        for hole in &ray.holes {
+            let (shape, element) = (self.shape(hole.shape), words::element(hole.element));
+            page.line(&format!("goes through a hole of {shape}{element} after {}", short(hole.distance)));
+        }
         match &ray.hit {
             Some(hit) => self.hit(page, hit),
             None => page.line("hits nothing"),
@@ -92,8 +96,17 @@ impl Explained<'_> {
 
     fn hit(&self, page: &mut Ledger, hit: &HitExplanation) {
         let side = if hit.from_outside { "outside" } else { "inside" };
-        page.line(&format!("hits {} after {}, on its {side}", self.shape(hit.shape), short(hit.distance)));
+        let (shape, distance) = (self.shape(hit.shape), short(hit.distance));
+        page.line(&format!("hits {shape} after {distance}, on its {side}{}", words::element(hit.element)));
         page.line(&format!("at {}, normal {}, color {}", vector(hit.point), vector(hit.normal), three(hit.color)));
+        let mut rest = self.material(hit.material);
+        if hit.shading_normal != hit.normal && hit.shading_normal != -hit.normal {
+            rest += &format!(", shaded with normal {}", vector(hit.shading_normal));
+        }
+        if hit.opacity != Rgb::WHITE {
+            rest += &format!(", opacity {}", color(hit.opacity));
+        }
+        page.line(&rest);
     }
 
     fn light(&self, light: &LightExplanation) -> String {

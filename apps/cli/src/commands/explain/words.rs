@@ -1,6 +1,8 @@
 //! Words for the façade's enums.
 
-use durer::{NotTraced, RayKind, Source};
+use crate::numbers::short;
+use durer::{Element, NotTraced, RayKind, Source};
+use serde_json::{Value, json};
 
 /// In sentences.
 pub(super) fn ray(kind: RayKind) -> &'static str {
@@ -25,6 +27,7 @@ pub(super) fn source(source: Source) -> &'static str {
     match source {
         Source::Fog => "fog on the way",
         Source::Background => "background",
+        Source::Emission => "light of its own",
         Source::Ambient => "ambient light",
         Source::Diffuse(_) => "diffuse",
         Source::Specular(_) => "highlight",
@@ -36,6 +39,7 @@ pub(super) fn source_key(source: Source) -> &'static str {
     match source {
         Source::Fog => "fog",
         Source::Background => "background",
+        Source::Emission => "emission",
         Source::Ambient => "ambient",
         Source::Diffuse(_) => "diffuse",
         Source::Specular(_) => "specular",
@@ -46,7 +50,26 @@ pub(super) fn source_key(source: Source) -> &'static str {
 pub(super) fn light_of(source: Source) -> Option<usize> {
     match source {
         Source::Diffuse(light) | Source::Specular(light) => Some(light),
-        Source::Fog | Source::Background | Source::Ambient => None,
+        Source::Fog | Source::Background | Source::Emission | Source::Ambient => None,
+    }
+}
+
+/// In sentences, after the name of the shape; empty if the shape is but one thing.
+pub(super) fn element(element: Element) -> String {
+    match element {
+        Element::Face(_) => String::new(),
+        Element::Triangle { index, weights } => {
+            let [a, b, c] = weights.map(|weight| short((weight * 1e4).round() / 1e4));
+            format!(", triangle {index} ({a} {b} {c})")
+        }
+    }
+}
+
+/// In JSON.
+pub(super) fn element_json(element: Element) -> Value {
+    match element {
+        Element::Face(index) => json!({ "face": index }),
+        Element::Triangle { index, weights } => json!({ "triangle": index, "weights": weights }),
     }
 }
 

@@ -1,0 +1,291 @@
+//! Images and textures: pictures in buffers or files, and how they lie on surfaces.
+
+use super::super::ModelError;
+use super::source::Source;
+use super::value::{Place, Value};
+use durer_imaging::{Alpha, Bitmap, DecodeLimits, Texels, Transfer, decode};
+use durer_math::functions::{cos, sin};
+use durer_math::{DAffine3, DMat3, DVec3, Rgb};
+use durer_scene::{
+    Channels, Encoding, Filter, ImageAsset, ImageId, ImageTexture, Mapping, Paint, Pattern, Texture, TextureId,
+    Transform, TransformStep, Wrap,
+};
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// The pictures that are used, and the textures that show them.
+#[derive(Default)]
+pub(super) struct Images {
+    pub(super) images: Vec<ImageAsset>,
+    pub(super) textures: Vec<Texture>,
+    /// The id of each picture, by what it is made from.
+    ids: HashMap<Key, ImageId>,
+    /// The mean of each picture that was asked for it, and whether its numbers were taken as sRGB.
+    means: HashMap<(usize, bool), Rgb>,
+    /// Pixels of all pictures that are kept.
+    texels: u64,
+    /// Pixels of all pictures that were read for their mean only.
+    texels_of_means: u64,
+}
+
+/// What a picture is made from: an image, with the least alpha that counts as there.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct Key {
+    image: usize,
+    cutoff: Option<u32>,
+}
+
+/// What a material says of one of its textures.
+pub(super) struct TextureUse {
+    image: usize,
+    place: Place,
+    /// Which texture coordinates it uses.
+    pub(super) uv_set: usize,
+    transform: Transform,
+    wrap: Wrap,
+    filter: Filter,
+}
+
+/// The `magFilter` without blending.
+const NEAREST: usize = 9728;
+/// The least and the largest scale of texture coordinates, since transforms must be reversible; and the farthest that
+/// they can be moved.
+const SCALES: (f64, f64) = (1e-6, 1e6);
+
+impl TextureUse {
+    /// The texture that a field refers to, if it has a picture.
+    pub(super) fn of<'a>(
+        source: &Source<'a>,
+        material: &Value<'a>,
+        field: &'static str,
+    ) -> Result<Option<TextureUse>, ModelError> {
+        let Some(reference) = material.object(field)? else { return Ok(None) };
+        let Some((_, texture)) = source.referred(&reference, "index", "textures")? else {
+            return Err(reference.fault("`index` is missing"));
+        };
+        let Some((image, value)) = source.referred(&texture, "source", "images")? else {
+            source.notes.add("textures are left out that have no PNG or JPEG image", texture.place);
+            return Ok(None);
+        };
+        let mut uv_set = reference.whole("texCoord")?.unwrap_or(0);
+        let mut transform = Transform::default();
+        if let Some(placing) = reference.extension("KHR_texture_transform")? {
+            uv_set = placing.whole("texCoord")?.unwrap_or(uv_set);
+            transform = texture_transform(&placing)?;
+        }
+        let (wrap, filter) = match source.referred(&texture, "sampler", "samplers")? {
+            Some((_, sampler)) => sampling(source, &sampler)?,
+            None => (Wrap::Repeat, Filter::Bilinear),
+        };
+        Ok(Some(TextureUse { image, place: value.place, uv_set, transform, wrap, filter }))
+    }
+}
+
+fn sampling(source: &Source<'_>, sampler: &Value<'_>) -> Result<(Wrap, Filter), ModelError> {
+    let wrap = |field| -> Result<Wrap, ModelError> {
+        Ok(match sampler.whole(field)? {
+            None | Some(10497) => Wrap::Repeat,
+            Some(33071) => Wrap::Clamp,
+            Some(33648) => Wrap::Mirror,
+            Some(other) => return Err(sampler.fault(format!("there is no {field} {other}"))),
+        })
+    };
+    let (across, down) = (wrap("wrapS")?, wrap("wrapT")?);
+    if across != down {
+        source.notes.add("textures go on upwards as they do sideways, though the file says otherwise", sampler.place);
+    }
+    let filter = if sampler.whole("magFilter")? == Some(NEAREST) { Filter::Nearest } else { Filter::Bilinear };
+    Ok((across, filter))
+}
+
+/// The map from the image to texture coordinates, v upwards, by KHR_texture_transform: the inverse of what it says, which
+/// is with v downwards, to scale, turn and move the coordinates.
+fn texture_transform(placing: &Value<'_>) -> Result<Transform, ModelError> {
+    let [x, y] = placing.numbers("offset")?.unwrap_or([0.0; 2]).map(|offset: f64| offset.clamp(-SCALES.1, SCALES.1));
+    let [a, b] = placing.numbers("scale")?.unwrap_or([1.0; 2]);
+    let angle = placing.number("rotation")?.unwrap_or(0.0);
+    let [a, b] = [a, b].map(|scale: f64| scale.abs().clamp(SCALES.0, SCALES.1).copysign(scale));
+    // The direction is that of the example in the extension's text, and of other programs.
+    let (s, c) = (sin(angle), cos(angle));
+    let flip = DAffine3 { matrix3: DMat3::from_diagonal(DVec3::new(1.0, -1.0, 1.0)), translation: DVec3::Y };
+    let image_from_uv = DAffine3 {
+        matrix3: DMat3::from_cols(DVec3::new(c * a, -s * a, 0.0), DVec3::new(s * b, c * b, 0.0), DVec3::Z),
+        translation: DVec3::new(x, y, 0.0),
+    };
+    let uv_from_image = flip * image_from_uv.inverse() * flip;
+    if uv_from_image.abs_diff_eq(DAffine3::IDENTITY, 0.0) {
+        return Ok(Transform::default());
+    }
+    Ok(Transform { steps: vec![matrix_step(&uv_from_image)] })
+}
+
+/// A map as a step of a transform.
+pub(super) fn matrix_step(map: &DAffine3) -> TransformStep {
+    let (m, t) = (map.matrix3, map.translation);
+    TransformStep::Matrix([0, 1, 2].map(|row| [m.x_axis[row], m.y_axis[row], m.z_axis[row], t[row]]))
+}
+
+impl Images {
+    /// A texture of the image's colors.
+    pub(super) fn color(&mut self, source: &Source<'_>, used: &TextureUse, tint: Rgb) -> Result<Paint, ModelError> {
+        let image = self.image(source, used, None)?;
+        Ok(self.paint(used, image, Channels::Color, tint))
+    }
+
+    /// A texture of the image's alpha; `None` if it has none.
+    pub(super) fn alpha(
+        &mut self,
+        source: &Source<'_>,
+        used: &TextureUse,
+        factor: f32,
+    ) -> Result<Option<Paint>, ModelError> {
+        let image = self.image(source, used, None)?;
+        let has_alpha = self.images[image.0 as usize].bitmap.alpha.is_some();
+        Ok(has_alpha.then(|| self.paint(used, image, Channels::Alpha, Rgb::gray(factor))))
+    }
+
+    /// A texture that is white where the image's alpha is at least `cutoff`, black elsewhere; `None` if it has no alpha.
+    pub(super) fn mask(
+        &mut self,
+        source: &Source<'_>,
+        used: &TextureUse,
+        cutoff: f32,
+    ) -> Result<Option<Paint>, ModelError> {
+        let image = self.image(source, used, None)?;
+        if self.images[image.0 as usize].bitmap.alpha.is_none() {
+            return Ok(None);
+        }
+        let image = self.image(source, used, Some(cutoff))?;
+        Ok(Some(self.paint(used, image, Channels::Alpha, Rgb::WHITE)))
+    }
+
+    /// The mean of an image's colors, linear, with its numbers taken as sRGB or as linear.
+    pub(super) fn mean(
+        &mut self,
+        source: &Source<'_>,
+        used: &TextureUse,
+        encoding: Encoding,
+    ) -> Result<Rgb, ModelError> {
+        let key = (used.image, encoding == Encoding::Srgb);
+        if let Some(mean) = self.means.get(&key) {
+            return Ok(*mean);
+        }
+        let bitmap = match self.ids.get(&Key { image: used.image, cutoff: None }) {
+            Some(id) => Arc::clone(&self.images[id.0 as usize].bitmap),
+            None => Arc::new(read(source, used, &mut self.texels_of_means)?),
+        };
+        let mean = mean(&bitmap, encoding);
+        self.means.insert(key, mean);
+        Ok(mean)
+    }
+
+    fn paint(&mut self, used: &TextureUse, image: ImageId, channels: Channels, tint: Rgb) -> Paint {
+        let encoding = if channels == Channels::Color { Encoding::Srgb } else { Encoding::Linear };
+        let (wrap, filter) = (used.wrap, used.filter);
+        let image = ImageTexture { image, mapping: Mapping::Uv, wrap, filter, encoding, channels, tint };
+        self.textures.push(Texture { name: None, transform: used.transform.clone(), pattern: Pattern::Image(image) });
+        Paint::Texture(TextureId(self.textures.len() as u32 - 1))
+    }
+
+    fn image(&mut self, source: &Source<'_>, used: &TextureUse, cutoff: Option<f32>) -> Result<ImageId, ModelError> {
+        let key = Key { image: used.image, cutoff: cutoff.map(f32::to_bits) };
+        if let Some(id) = self.ids.get(&key) {
+            return Ok(*id);
+        }
+        let (bitmap, suffix) = match cutoff {
+            None => (read(source, used, &mut self.texels)?, String::new()),
+            Some(cutoff) => {
+                let whole = self.image(source, used, None)?;
+                let bitmap = Arc::clone(&self.images[whole.0 as usize].bitmap);
+                take_texels(source, &bitmap, &mut self.texels, used.place)?;
+                (masked(&bitmap, cutoff), format!(" where alpha is at least {cutoff}"))
+            }
+        };
+        let file = source.image_name(used.image)? + &suffix;
+        source.budget.spend(1, file.len(), used.place)?;
+        let id = ImageId(self.images.len() as u32);
+        self.images.push(ImageAsset { file, bitmap: Arc::new(bitmap) });
+        self.ids.insert(key, id);
+        Ok(id)
+    }
+}
+
+/// Reads a picture and counts its pixels.
+fn read(source: &Source<'_>, used: &TextureUse, texels: &mut u64) -> Result<Bitmap, ModelError> {
+    let bytes = source.image_bytes(used.image)?;
+    // Pictures may share their bytes; the time that they take is to be paid for each.
+    source.budget.spend(bytes.len(), 1, used.place)?;
+    let left = source.limits.max_texels.saturating_sub(*texels);
+    let limits = DecodeLimits { max_pixels: left, max_bytes: left.saturating_mul(16) };
+    let bitmap = decode(&bytes, &limits).map_err(|error| used.place.fault(error))?;
+    take_texels(source, &bitmap, texels, used.place)?;
+    Ok(bitmap)
+}
+
+fn take_texels(source: &Source<'_>, bitmap: &Bitmap, texels: &mut u64, place: Place) -> Result<(), ModelError> {
+    *texels = texels.saturating_add(u64::from(bitmap.width) * u64::from(bitmap.height));
+    match *texels <= source.limits.max_texels {
+        true => Ok(()),
+        false => Err(place.fault("with this, the images have more pixels than are allowed")),
+    }
+}
+
+/// The mean of a picture's colors, linear, each component from 0 to 1.
+fn mean(bitmap: &Bitmap, encoding: Encoding) -> Rgb {
+    let transfer = match encoding {
+        Encoding::Srgb => Transfer::Srgb,
+        Encoding::Linear => Transfer::Linear,
+    };
+    let linear = |most: u16| -> Vec<f64> {
+        let stored = (0..=most).map(|number| f32::from(number) / f32::from(most));
+        stored.map(|stored| transfer.linear_from_stored(stored).into()).collect()
+    };
+    let sum = match &bitmap.texels {
+        Texels::U8(texels) => sum(texels, &linear(u8::MAX.into()), |number| number.into()),
+        Texels::U16(texels) => sum(texels, &linear(u16::MAX), |number| number.into()),
+        Texels::F32(texels) => texels.iter().fold(DVec3::ZERO, |sum, texel| sum + DVec3::from(texel.map(f64::from))),
+    };
+    let mean = sum / (f64::from(bitmap.width) * f64::from(bitmap.height));
+    // What is no number is black.
+    let component = |component: f64| if component > 0.0 { component.min(1.0) as f32 } else { 0.0 };
+    Rgb::from(mean.to_array().map(component))
+}
+
+/// The sum of what the numbers of texels stand for.
+fn sum<T: Copy>(texels: &[[T; 3]], meaning: &[f64], index: impl Fn(T) -> usize) -> DVec3 {
+    let add = |sum: DVec3, texel: &[T; 3]| sum + DVec3::from(texel.map(|number| meaning[index(number)]));
+    texels.iter().fold(DVec3::ZERO, add)
+}
+
+/// Nothing but an alpha channel: all where that of `bitmap` is at least `cutoff`, nothing elsewhere.
+fn masked(bitmap: &Bitmap, cutoff: f32) -> Bitmap {
+    let pixels = bitmap.width as usize * bitmap.height as usize;
+    let is_there = |at| bitmap.alpha.as_ref().is_none_or(|alpha| alpha.get(at) >= cutoff);
+    let alpha = (0..pixels).map(|at| if is_there(at) { 255 } else { 0 }).collect();
+    let texels = Texels::U8(vec![[0; 3]; pixels]);
+    Bitmap { width: bitmap.width, height: bitmap.height, texels, alpha: Some(Alpha::U8(alpha)) }
+}
+
+impl<'a> Source<'a> {
+    /// What messages call an image.
+    fn image_name(&self, index: usize) -> Result<String, ModelError> {
+        let image = self.item("images", index, Place::default())?;
+        match image.text("uri")? {
+            Some(uri) if !uri.starts_with("data:") => self.files.path(uri, image.place),
+            _ => Ok(format!("{}#images[{index}]", self.file)),
+        }
+    }
+
+    /// The bytes of an image file.
+    fn image_bytes(&self, index: usize) -> Result<Cow<'_, [u8]>, ModelError> {
+        let image = self.item("images", index, Place::default())?;
+        if let Some(uri) = image.text("uri")? {
+            return Ok(Cow::Owned(self.files.read(uri, self.limits.max_image_bytes, image.place)?));
+        }
+        match self.view(&image)? {
+            Some(view) => Ok(Cow::Borrowed(view.bytes)),
+            None => Err(image.fault("this image has neither `uri` nor `bufferView`")),
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! What it takes to find what the eye sees: for each pixel, how much of the search structures one ray of the eye goes
+//! through.
+//!
+//! The ray is that of a picture without anti-aliasing, and the search the usual one through the trees, of which every step is
+//! counted. (In small scenes rendering has a shorter way for the eye's rays, which is left out here.)
+
+use crate::antialias::{Antialias, Sample, Samples, grid::Grid};
+use crate::compile::CompiledScene;
+use crate::film::Region;
+use crate::schedule::{Progress, RenderError, RenderOptions, in_tiles, region_of};
+use durer_geometry::Work;
+use durer_math::{DVec2, Rgb};
+
+/// What each pixel of a region took: rows from the top, pixels from the left.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct HeatMap {
+    /// Part of the picture that this is.
+    pub region: Region,
+    /// Nodes of trees whose boxes were tested.
+    pub nodes: Vec<u32>,
+    /// Shapes, triangles and particles that were tested.
+    pub primitives: Vec<u32>,
+}
+
+/// Counts what the eye's rays take. What `progress` stops is 0.
+pub fn heatmap(
+    scene: &CompiledScene,
+    options: &RenderOptions,
+    progress: &dyn Progress,
+) -> Result<HeatMap, RenderError> {
+    let region = region_of(scene, options)?;
+    let nothing = vec![0; region.width as usize * region.height as usize];
+    let map = HeatMap { region, nodes: nothing.clone(), primitives: nothing };
+    in_tiles(region, options, progress, map, |tile| (tile, count(scene, tile)), HeatMap::put)
+}
+
+/// One entry for each pixel, row by row.
+fn count(scene: &CompiledScene, tile: Region) -> Vec<Work> {
+    let rows = tile.y..tile.y + tile.height;
+    let pixels = rows.flat_map(|y| (tile.x..tile.x + tile.width).map(move |x| (x, y)));
+    pixels.map(|(x, y)| count_pixel(scene, DVec2::new(f64::from(x), f64::from(y)))).collect()
+}
+
+fn count_pixel(scene: &CompiledScene, corner: DVec2) -> Work {
+    let mut counter = Counter { scene, work: Work::default() };
+    Grid { n: 1 }.pixel(corner, &mut counter);
+    counter.work
+}
+
+/// Follows samples no further than to what they see first.
+struct Counter<'a> {
+    scene: &'a CompiledScene,
+    work: Work,
+}
+
+impl Samples for Counter<'_> {
+    fn take(&mut self, at: DVec2) -> Sample {
+        let ray = self.scene.camera.ray(at);
+        let _ = self.scene.world.closest_hit_watched(&ray, f64::INFINITY, u32::MAX, &mut self.work);
+        Sample { color: Rgb::BLACK, index: 0 }
+    }
+
+    fn keep(&mut self, _weight: f32, _sample: Sample) {}
+}
+
+impl HeatMap {
+    fn put(&mut self, (tile, counts): (Region, Vec<Work>)) {
+        let narrow = |count: u64| u32::try_from(count).unwrap_or(u32::MAX);
+        for (row, works) in counts.chunks(tile.width as usize).enumerate() {
+            let y = (tile.y - self.region.y) as usize + row;
+            let start = y * self.region.width as usize + (tile.x - self.region.x) as usize;
+            for (at, work) in (start..).zip(works) {
+                (self.nodes[at], self.primitives[at]) = (narrow(work.nodes), narrow(work.primitives));
+            }
+        }
+    }
+}

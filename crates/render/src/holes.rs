@@ -1,0 +1,64 @@
+//! Holes in surfaces, where opacity is 0: rays go on through them as if there were no surface, and cost no depth.
+//!
+//! Those in what is filled with a medium are left to shading, which knows how to leave a medium.
+
+use crate::compile::CompiledScene;
+use crate::observer::Observer;
+use crate::shading::opacity_at;
+use crate::visibility::MOST_SURFACES;
+use durer_geometry::{Hit, Ray, Vantage};
+
+/// What a ray meets first.
+pub(crate) struct Met {
+    /// The ray, or what goes on of it behind the last hole: the hit is one of this ray.
+    pub(crate) ray: Ray,
+    pub(crate) hit: Option<Hit>,
+    /// From where the ray began to the hit; infinite if there is none.
+    pub(crate) length: f64,
+}
+
+/// What is known of a ray before it is traced. It changes nothing but the speed.
+#[derive(Clone, Copy)]
+pub(crate) enum Known<'a> {
+    /// Nothing.
+    Nothing,
+    /// What can be seen from where it begins.
+    Vantage(&'a Vantage),
+    /// What it hits.
+    Hit(Option<Hit>),
+}
+
+/// What a ray meets first but holes.
+#[inline]
+pub(crate) fn meet(scene: &CompiledScene, ray: &Ray, known: Known<'_>, observer: &mut impl Observer) -> Met {
+    let hit = match known {
+        Known::Hit(hit) => hit,
+        Known::Vantage(vantage) => scene.world.closest_hit(ray, f64::INFINITY, u32::MAX, Some(vantage)),
+        Known::Nothing => scene.world.closest_hit(ray, f64::INFINITY, u32::MAX, None),
+    };
+    match hit {
+        Some(hit) if scene.has_holes => behind_holes(scene, ray, hit, observer),
+        Some(hit) => Met { ray: *ray, hit: Some(hit), length: hit.crossing.t },
+        None => Met { ray: *ray, hit: None, length: f64::INFINITY },
+    }
+}
+
+/// Goes on as long as what is hit is a hole.
+fn behind_holes(scene: &CompiledScene, ray: &Ray, first: Hit, observer: &mut impl Observer) -> Met {
+    let (mut ray, mut hit, mut length) = (*ray, first, first.crossing.t);
+    for _ in 0..MOST_SURFACES {
+        let looks = &scene.objects[hit.primitive as usize].looks;
+        let surface = scene.world.surface(&ray, &hit);
+        if !looks.has_holes || looks.is_medium || !opacity_at(scene, &hit, &surface).is_black() {
+            return Met { ray, hit: Some(hit), length };
+        }
+        observer.hole(&hit, &surface, length);
+        let onward = surface.offset.copysign(ray.direction.dot(surface.normal));
+        ray.origin = surface.point + surface.normal * onward;
+        match scene.world.closest_hit(&ray, f64::INFINITY, u32::MAX, None) {
+            Some(next) => (hit, length) = (next, length + next.crossing.t),
+            None => break,
+        }
+    }
+    Met { ray, hit: None, length: f64::INFINITY }
+}
