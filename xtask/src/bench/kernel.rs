@@ -1,2 +1,69 @@
-//! Not there yet.
-pub(crate) fn run(_: &super::Options<'_>) -> Result<(), String> { Err("not there yet".to_owned()) }
+//! `cargo xtask bench kernel`: rays a second of durer's kernel, of Embree 4 and of the crates obvhs and bvh, one thread.
+//!
+//! Each has a program that prints what it measures, one JSON object a line: `benches/kernel` for durer and the crates,
+//! `benches/embree` for Embree. All make the same scenes and rays, which is checked by hashes.
+
+pub(crate) mod build;
+mod lines;
+mod report;
+
+use super::options::Options;
+use crate::shell;
+use build::Programs;
+use lines::Lines;
+use std::path::Path;
+use std::process::Command;
+
+/// Rounds, if nothing else is asked for.
+const ROUNDS: usize = 5;
+
+const SCENES: [&str; 4] = ["terrain", "cave", "soup", "spheres"];
+
+/// How often a program sends each kind of rays in one round.
+const REPEATS: &str = "3";
+
+/// With this a program builds its tree and sends no ray.
+const BUILD_ONLY: &str = "0";
+
+/// Measures and writes the report.
+pub(crate) fn run(options: &Options<'_>) -> Result<(), String> {
+    let rounds = options.count("--rounds", ROUNDS)?;
+    let scenes = options.names("--scenes", &SCENES)?;
+    let programs = build::programs()?;
+    let mut lines = Lines::default();
+    for round in 1..=rounds {
+        for scene in &scenes {
+            println!("round {round} of {rounds}: {scene}");
+            for mut command in commands(&programs, scene) {
+                lines.read(&shell::output(&mut command)?)?;
+            }
+        }
+    }
+    super::report::keep("kernel", &report::markdown(&lines, rounds, &scenes, &programs)?)
+}
+
+/// What is run in turn for one scene.
+fn commands(programs: &Programs, scene: &str) -> Vec<Command> {
+    let durer = command(&programs.durer, &[scene, REPEATS]);
+    let crates = |name: &str, repeats: &str| command(&programs.crates, &[name, scene, repeats]);
+    let embree = programs.embree.iter().flat_map(|path| embree(path, scene));
+    let others = [crates("obvhs-medium", REPEATS), crates("bvh", REPEATS)];
+    // Other qualities for the times that building takes.
+    let builds = [crates("obvhs-fast", BUILD_ONLY), crates("obvhs-very-slow", BUILD_ONLY)];
+    [durer].into_iter().chain(embree).chain(others).chain(builds).collect()
+}
+
+fn embree(path: &Path, scene: &str) -> Vec<Command> {
+    let of = |scene: &str| {
+        let qualities = [("medium", REPEATS), ("high", REPEATS), ("low", BUILD_ONLY)];
+        qualities.map(|(quality, repeats)| command(path, &[scene, repeats, quality]))
+    };
+    let user = (scene == "spheres").then_some("user-spheres");
+    [Some(scene), user].into_iter().flatten().flat_map(of).collect()
+}
+
+fn command(program: &Path, words: &[&str]) -> Command {
+    let mut command = Command::new(program);
+    command.args(words);
+    command
+}

@@ -8,7 +8,8 @@ use durer::math::{DVec3, Rgb};
 use durer::scene::{MaterialId, MeshData, Object, Scene, TransformStep};
 use std::sync::Arc;
 
-/// A tilted box in a room with a mirror and two lights, of the first material.
+/// A tilted box in a room with a mirror and two lights, of the first material. The floor slopes, for rays may leave the box
+/// just as they came, and must not go along it then.
 fn room(material: &str, object: Object) -> Scene {
     let text = format!(
         "background: {{bottom: white, top: skyblue}}
@@ -17,7 +18,7 @@ render: {{max_depth: 8}}
 materials:
   box: {{{material}}}
 objects:
-  - plane: {{point: [0, -1.2, 0], material: {{color: {{checker: {{size: 0.3}}}}, reflection: 0.2}}}}
+  - plane: {{point: [0, -1.2, 0], normal: [0.1, 1, 0.05], material: {{color: {{checker: {{size: 0.3}}}}, reflection: 0.2}}}}
   - plane: {{point: [0, 0, -3], normal: [0, 0, 1], material: {{color: tomato}}}}"
     );
     let turn = TransformStep::Rotate { axis: DVec3::new(1.0, 2.0, 0.5), degrees: 40.0 };
@@ -67,9 +68,6 @@ fn a_glass_box_of_triangles_is_a_glass_box() {
         "transparency: 0.9, ior: 1.3, attenuation: {color: [0.3, 0.8, 0.9], distance: 0.5}",
     ] {
         let (exact, triangles) = (view(room(material, box_shape())), view(room(material, mesh(box_mesh()))));
-        for (i, (a, b)) in exact.pixels.iter().zip(&triangles.pixels).enumerate() {
-            if difference(*a, *b) > 1e-5 { eprintln!("{} {} {:?} {:?}", i % 64, i / 64, a, b); }
-        }
         assert!(differing(&exact, &triangles) <= 1, "{material}: {}", differing(&exact, &triangles));
     }
 }

@@ -19,9 +19,9 @@ const FIELD_OF_VIEW: f64 = 30.0;
 const VIEW: [f64; 2] = [30.0, 20.0];
 /// Where the light comes from, in the same way: over the viewer's left shoulder, and weaker from the right.
 const KEY: [f64; 2] = [-15.0, 52.0];
-const FILL: [f64; 2] = [95.0, 28.0];
+const FILL: [f64; 2] = [62.0, 40.0];
 /// How much of the picture the model fills at most.
-const FILLED: f64 = 0.8;
+const FILLED: f64 = 0.86;
 /// The key light is a cluster, so that shadows have soft edges; this many in a cone of this half-angle, in degrees.
 const KEY_LIGHTS: u32 = 16;
 const KEY_HALF_ANGLE: f64 = 7.0;
@@ -41,7 +41,7 @@ pub(super) fn stage(model: Scene, file: &str) -> Scene {
     let bounds = bounds_of(&objects);
     let transform = if scene.camera.is_some() { Transform::default() } else { within_reach(bounds) };
     let bounds = bounds.moved(&transform.to_affine());
-    let material = Some(add(&mut scene, matte(Rgb::new(0.70, 0.67, 0.63))));
+    let material = Some(add(&mut scene, matte(Rgb::new(0.68, 0.61, 0.54))));
     // Materials of a group stand back behind those of what is in it.
     scene.objects.push(Object { name: Some(file.to_owned()), material, transform, kind: ObjectKind::Group(objects) });
     if scene.camera.is_none() {
@@ -146,7 +146,7 @@ fn lights() -> Vec<Light> {
         directional(format!("key {}", i + 1), 0.85 / KEY_LIGHTS as f32, towards)
     };
     let mut lights: Vec<Light> = (0..KEY_LIGHTS).map(one_of_key).collect();
-    lights.push(directional("fill".to_owned(), 0.12, towards(FILL)));
+    lights.push(directional("fill".to_owned(), 0.1, towards(FILL)));
     lights
 }
 

@@ -142,7 +142,7 @@ impl<'a> Cursor<'a> {
         let rest = &self.bytes[self.at.min(self.bytes.len())..];
         if let Some((number, length)) = plain_number(rest) {
             let end = rest.get(length).copied();
-            if matches!(end, None | Some(b' ' | b'\t' | b'\r' | b'\n')) {
+            if matches!(end, None | Some(b' ' | b'\t' | b'\r' | b'\n' | b'#')) {
                 self.at += length;
                 return Some(number);
             }

@@ -4,7 +4,7 @@ use super::decode::Decoder;
 use super::tree::{Node, shorten};
 use crate::diagnostics::Complaint;
 use durer_imaging::{Bitmap, DecodeLimits, decode};
-use durer_scene::{Channels, ImageAsset, ImageId, Pattern};
+use durer_scene::{Channels, ImageAsset, ImageId, ImageTexture, Pattern};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -48,21 +48,27 @@ fn enter(name: &str, bitmap: Bitmap, node: &Rc<Node>, cx: &mut Decoder<'_>) -> I
 
 /// Warns of images with transparent parts of which only the colors are shown. Those that models brought are theirs.
 pub(super) fn warn_of_ignored_alpha(cx: &mut Decoder<'_>) {
-    let used = |id: ImageId, channels: Channels| {
-        let uses =
-            |pattern: &Pattern| matches!(pattern, Pattern::Image(it) if it.image == id && it.channels == channels);
-        cx.scene.textures.iter().any(|texture| uses(&texture.pattern))
-    };
-    let own = cx.images.iter().filter_map(|(name, id)| Some((name, (*id)?)));
-    let with_alpha = own.filter(|(_, id)| cx.scene.images[id.0 as usize].bitmap.alpha.is_some());
-    let ignored = with_alpha.filter(|(_, id)| used(*id, Channels::Color) && !used(*id, Channels::Alpha));
-    let warn = |(name, id): (&String, ImageId)| {
-        let message = format!("the image `{}` has transparent parts", shorten(name));
-        let complaint = Complaint::warning(cx.image_nodes[id.0 as usize].span, message);
-        let help = "for holes, show it in the material's `opacity` too, with `channels: alpha`";
-        complaint.label("its alpha channel is ignored").help(help)
-    };
-    let warnings: Vec<Complaint> = ignored.map(warn).collect();
+    let mut shows_color = vec![false; cx.scene.images.len()];
+    let mut shows_alpha = shows_color.clone();
+    for texture in &cx.scene.textures {
+        if let Pattern::Image(ImageTexture { image: ImageId(id), channels, .. }) = texture.pattern {
+            let shows = if channels == Channels::Alpha { &mut shows_alpha } else { &mut shows_color };
+            // An image that could not be read has a number, but no place.
+            if let Some(shows) = shows.get_mut(id as usize) {
+                *shows = true;
+            }
+        }
+    }
+    let mut warnings = Vec::new();
+    for (name, id) in cx.images.iter().filter_map(|(name, id)| Some((name, id.as_ref()?.0 as usize))) {
+        let has_alpha = cx.scene.images[id].bitmap.alpha.is_some();
+        if has_alpha && shows_color[id] && !shows_alpha[id] {
+            let message = format!("the image `{}` has transparent parts", shorten(name));
+            let complaint = Complaint::warning(cx.image_nodes[id].span, message);
+            let help = "for holes, show it in the material's `opacity` too, with `channels: alpha`";
+            warnings.push(complaint.label("its alpha channel is ignored").help(help));
+        }
+    }
     for warning in warnings {
         let _: Option<()> = cx.complain(warning);
     }

@@ -69,7 +69,6 @@ const OTHER_WORDS: &[(&str, &str)] = &[
     ("starts", "bases"),
     ("faces", "triangles"),
     ("indices", "triangles"),
-    ("normals", "vertex_normals"),
     ("scales", "scale"),
     ("translations", "positions"),
     ("path", "file"),

@@ -1,0 +1,188 @@
+//! The report of `cargo xtask bench kernel`.
+
+use super::build::{self, Programs};
+use super::lines::{Lines, Who};
+use crate::bench::report::place;
+use std::fmt::Write;
+
+/// A column of the tables.
+struct Column {
+    head: &'static str,
+    program: &'static str,
+    /// The qualities of which the better counts. With one that begins with `user`, balls are geometry of the user's.
+    variants: &'static [&'static str],
+}
+
+const DURER: Column = Column { head: "durer", program: "durer", variants: &[""] };
+const EMBREE: [Column; 2] = [
+    Column { head: "Embree, medium", program: "Embree", variants: &["medium", "user medium"] },
+    Column { head: "Embree, high", program: "Embree", variants: &["high", "user high"] },
+];
+const CRATES: [Column; 2] = [
+    Column { head: "obvhs, medium", program: "obvhs", variants: &["medium"] },
+    Column { head: "bvh", program: "bvh", variants: &[""] },
+];
+
+/// Kinds of rays, whether they go in packets, and what they ask for.
+const KINDS: [(&str, bool, &str); 6] = [
+    ("primary", false, "primary, closest"),
+    ("primary", true, "primary, closest, packets"),
+    ("bounce", false, "bounce, closest"),
+    ("bounce any", false, "bounce, any"),
+    ("shadow", false, "shadow, any"),
+    ("shadow", true, "shadow, any, packets"),
+];
+
+impl Column {
+    fn is_of(&self, who: &Who, scene: &str) -> bool {
+        who.scene == scene && who.program == self.program && self.variants.contains(&who.variant.as_str())
+    }
+}
+
+/// A table's cell with a number, or a dash.
+fn cell(value: Option<f64>, digits: usize) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| format!("{value:.digits$}"))
+}
+
+/// The whole report.
+pub(super) fn markdown(lines: &Lines, rounds: usize, scenes: &[&str], programs: &Programs) -> Result<String, String> {
+    let has_embree = programs.embree.is_some();
+    let mut text = format!("# Rays a second\n\n{}\n{}.\n\n", place()?, versions(lines));
+    if !has_embree {
+        text += "Embree is left out, for it was not found: install Embree 4 (`dnf install embree-devel`, `brew install embree`, or a\n\
+                 release of github.com/RenderKit/embree), and name its folders in `EMBREE_INC` (which holds `embree4/rtcore.h`) and\n\
+                 `EMBREE_LIB` if pkg-config does not know them.\n\n";
+    }
+    text += &about(rounds);
+    text += "\n## Millions of rays for each second of processor time\n\n";
+    text += &rates(lines, scenes, has_embree);
+    text += "\n## What the rays found\n\n";
+    text += &findings(lines, scenes, has_embree);
+    text += "\n## Building, one thread\n\n";
+    text += &builds(lines, scenes);
+    Ok(text)
+}
+
+fn versions(lines: &Lines) -> String {
+    let mut versions = vec![format!("durer {}", env!("CARGO_PKG_VERSION"))];
+    if let Some(number) = lines.embree_version {
+        versions.push(format!("Embree {}.{}.{}", number / 10_000, number / 100 % 100, number % 100));
+    }
+    versions.extend(["obvhs", "bvh"].map(|name| format!("{name} {}", build::version_of(name))));
+    versions.join("; ")
+}
+
+fn about(rounds: usize) -> String {
+    format!(
+        "One thread. Medians of {rounds} rounds in which the programs ran in turn; in each of them, of three passes over about a\n\
+         million rays after one more to warm up (a pass of more than two seconds is not repeated). Scenes and rays are the same\n\
+         to the bit: a million triangles as hills, as a cave and at random in a cube, and a million balls. Secondary rays start\n\
+         where a program's own primary rays hit. Packets are eight rays: in Embree with its flag for coherent rays, for shadows\n\
+         with or without it, whichever is faster; balls are Embree's own points or geometry of the user's, whichever is faster.\n\
+         durer computes in double precision, the others in single. The crates are built for this very processor.\n"
+    )
+}
+
+fn columns(has_embree: bool) -> impl Iterator<Item = Column> {
+    [DURER].into_iter().chain(EMBREE.into_iter().filter(move |_| has_embree)).chain(CRATES)
+}
+
+fn rates(lines: &Lines, scenes: &[&str], has_embree: bool) -> String {
+    let heads: Vec<&str> = columns(has_embree).map(|column| column.head).collect();
+    let mut text = format!("| scene | rays | {} |", heads.join(" | "));
+    text += if has_embree { " durer ÷ medium | durer ÷ better |\n" } else { "\n" };
+    text += &format!("|---|---|{}\n", "---:|".repeat(heads.len() + if has_embree { 2 } else { 0 }));
+    for scene in scenes {
+        for (kind, in_packets, name) in KINDS {
+            let rate = |column: &Column| {
+                lines.best_rate(kind, |who, way| column.is_of(who, scene) && way.starts_with("packets") == in_packets)
+            };
+            let cells: Vec<String> = columns(has_embree).map(|column| cell(rate(&column), 2)).collect();
+            let _ = write!(text, "| {scene} | {name} | {} |", cells.join(" | "));
+            if has_embree {
+                let (ours, [medium, high]) = (rate(&DURER), EMBREE.each_ref().map(rate));
+                let ratio = |theirs: Option<f64>| cell(ours.zip(theirs).map(|(ours, theirs)| ours / theirs), 2);
+                let better = [medium, high].into_iter().flatten().reduce(f64::max);
+                let _ = write!(text, " {} | {} |", ratio(medium), ratio(better));
+            }
+            text.push('\n');
+        }
+    }
+    text
+}
+
+/// Hits of the first column, and how many more or less the others have.
+fn findings(lines: &Lines, scenes: &[&str], has_embree: bool) -> String {
+    let reference = if has_embree { &EMBREE[0] } else { &DURER };
+    let others: Vec<Column> = columns(has_embree).filter(|column| column.head != reference.head).collect();
+    let heads: String = others.iter().map(|column| format!(" {} |", column.head)).collect();
+    let mut text = format!(
+        "Rays of {head}, their hits and the sum of their distances; then how much these differ for the others. A few rays\n\
+         along edges are told apart by the last bit, and secondary rays follow from them.\n\n\
+         | scene | rays | {head} |{heads}\n|---|---|---:|{}\n",
+        "---:|".repeat(others.len()),
+        head = reference.head,
+    );
+    for scene in scenes {
+        for (kind, in_packets, name) in KINDS {
+            let found = |column: &Column| {
+                lines.found(kind, |who, way| column.is_of(who, scene) && way.starts_with("packets") == in_packets)
+            };
+            let Some(base) = found(reference) else { continue };
+            let difference = |column: &Column| match found(column) {
+                None => "–".to_owned(),
+                Some(found) => {
+                    let by = |value: u64, base: u64| value as i64 - base as i64;
+                    let distance = found.distances - base.distances;
+                    format!("{:+} / {:+} / {distance:+.4}", by(found.count, base.count), by(found.hits, base.hits))
+                }
+            };
+            let cells: Vec<String> = others.iter().map(difference).collect();
+            let base = format!("{} / {} / {:.4}", base.count, base.hits, base.distances);
+            let _ = writeln!(text, "| {scene} | {name} | {base} | {} |", cells.join(" | "));
+        }
+    }
+    text
+}
+
+fn builds(lines: &Lines, scenes: &[&str]) -> String {
+    let mut text = "| scene | program | seconds | bytes a thing | with lists |\n|---|---|---:|---:|---:|\n".to_owned();
+    for scene in scenes {
+        let things = lines.things(scene).unwrap_or(1) as f64;
+        for (who, build) in lines.builds(scene) {
+            let variant = if who.variant.is_empty() { String::new() } else { format!(", {}", who.variant) };
+            let (bytes, all) = (build.bytes / things, (build.bytes + build.list_bytes) / things);
+            let _ = writeln!(text, "| {scene} | {}{variant} | {:.3} | {bytes:.1} | {all:.1} |", who.program, build.seconds);
+        }
+    }
+    text + "\nLists are the corners and the triangles that they are joined to, where a program needs them beside its tree.\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn printed(program: &str, variant: &str, rate: f64, hits: u32) -> String {
+        format!(
+            r#"{{"program": "{program}", "variant": "{variant}", "scene": "soup", "measure": "scene", "count": 10, "hashes": ["1"]}}
+{{"program": "{program}", "variant": "{variant}", "scene": "soup", "measure": "build", "seconds": 0.5, "bytes": 640, "list_bytes": 120}}
+{{"program": "{program}", "variant": "{variant}", "scene": "soup", "measure": "rays", "rays": "bounce", "way": "single", "count": 100, "million_a_second": {rate}, "hits": {hits}, "distances": {hits}.5}}"#
+        )
+    }
+
+    #[test]
+    fn tables_have_ratios_differences_and_bytes() {
+        let mut lines = Lines::default();
+        lines.read(&printed("durer", "", 3.0, 7)).unwrap();
+        lines.read(&printed("Embree", "medium", 2.0, 8)).unwrap();
+        lines.read(&printed("Embree", "high", 4.0, 8)).unwrap();
+        let table = rates(&lines, &["soup"], true);
+        assert!(table.contains("| soup | bounce, closest | 3.00 | 2.00 | 4.00 | – | – | 1.50 | 0.75 |"), "{table}");
+        let table = findings(&lines, &["soup"], true);
+        assert!(table.contains("| 100 / 8 / 8.5000 | +0 / -1 / -1.0000 | +0 / +0 / +0.0000 | – | – |"), "{table}");
+        let table = builds(&lines, &["soup"]);
+        assert!(table.contains("| soup | Embree, medium | 0.500 | 64.0 | 76.0 |"), "{table}");
+        let table = rates(&lines, &["soup"], false);
+        assert!(table.contains("| soup | bounce, closest | 3.00 | – | – |\n"), "{table}");
+    }
+}

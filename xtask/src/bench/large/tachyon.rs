@@ -1,0 +1,62 @@
+//! The scene as a model for Tachyon.
+
+use super::things::{AMBIENT, BACKGROUND, DIFFUSE, EYE, FLOOR, HALF_HEIGHT, LAMP, PALETTE, Thing, things};
+use std::io::{self, Write};
+
+pub(super) fn write(count: usize, size: u32, out: &mut impl Write) -> io::Result<()> {
+    head(size, out)?;
+    for thing in things(count) {
+        match thing {
+            Thing::Ball { center, radius, color } => {
+                writeln!(out, "SPHERE CENTER {} RAD {radius} T{color}", Numbers(center))?;
+            }
+            Thing::Rod { base, top, radius, color } => {
+                writeln!(out, "FCYLINDER BASE {} APEX {} RAD {radius} T{color}", Numbers(base), Numbers(top))?;
+            }
+        }
+    }
+    writeln!(out, "END_SCENE")?;
+    out.flush()
+}
+
+fn head(size: u32, out: &mut impl Write) -> io::Result<()> {
+    let half = HALF_HEIGHT;
+    let (eye, forward) = (Numbers(EYE.to_array()), Numbers((-EYE.normalize()).to_array()));
+    writeln!(out, "BEGIN_SCENE\nRESOLUTION {size} {size}\nCAMERA\n PROJECTION PERSPECTIVE\n ZOOM 1.0\n ASPECTRATIO 1.0")?;
+    writeln!(out, " ANTIALIASING 0\n RAYDEPTH 5\n CENTER {eye}\n VIEWDIR {forward}\n UPDIR 0 1 0")?;
+    writeln!(out, " FRUSTUM {half} -{half} -{half} {half}\nEND_CAMERA\nBACKGROUND {}", Numbers(BACKGROUND))?;
+    writeln!(out, "LIGHT CENTER {} RAD 0.0 COLOR 1 1 1", Numbers(LAMP.to_array()))?;
+    let texture = |color: [f64; 3]| {
+        let color = Numbers(color);
+        format!("AMBIENT {AMBIENT} DIFFUSE {DIFFUSE} SPECULAR 0.0 OPACITY 1.0 COLOR {color} TEXFUNC 0")
+    };
+    for (number, color) in PALETTE.into_iter().enumerate() {
+        writeln!(out, "TEXDEF T{number} {}", texture(color))?;
+    }
+    writeln!(out, "PLANE CENTER 0 {FLOOR} 0 NORMAL 0 1 0 TEXTURE {}", texture([1.0; 3]))
+}
+
+/// Three numbers with blanks between them.
+struct Numbers<T>([T; 3]);
+
+impl<T: std::fmt::Display> std::fmt::Display for Numbers<T> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [x, y, z] = &self.0;
+        write!(f, "{x} {y} {z}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_model_has_all_its_parts() {
+        let mut out = Vec::new();
+        write(100, 1024, &mut out).unwrap();
+        let text = String::from_utf8(out).unwrap();
+        let count = |word: &str| text.lines().filter(|line| line.starts_with(word)).count();
+        assert_eq!((count("SPHERE "), count("FCYLINDER "), count("TEXDEF "), count("PLANE ")), (50, 50, 8, 1));
+        assert!(text.contains("FRUSTUM 0.45 -0.45 -0.45 0.45") && text.ends_with("END_SCENE\n"), "{text}");
+    }
+}
