@@ -136,6 +136,7 @@ fn between(a: f64, b: f64, t: f64) -> f64 {
 
 /// A number from 0 to 1 for a point with whole coordinates, each of which comes with its factor.
 fn random_at<const N: usize>(coordinates: [(i64, u64); N], octave: u64) -> f64 {
-    let sum = coordinates.iter().fold(0, |sum: u64, &(whole, factor)| sum.wrapping_add((whole as u64).wrapping_mul(factor)));
+    let sum =
+        coordinates.iter().fold(0, |sum: u64, &(whole, factor)| sum.wrapping_add((whole as u64).wrapping_mul(factor)));
     unit(mix(sum.wrapping_add((octave + 1).wrapping_mul(0x1656_67B1_9E37_79F9))))
 }

@@ -54,6 +54,17 @@ impl Camera {
         (!self.parallel).then_some(self.position)
     }
 
+    /// A box around the points that rays start from.
+    pub(crate) fn origins(&self) -> Bounds {
+        if !self.parallel {
+            return Bounds::of_points([self.position]);
+        }
+        // A little more than the picture, for the rounding of its corners.
+        let (right, up) = (self.right * 1.001, self.up * 1.001);
+        let corner = |x: f64, y: f64| self.position + right * x + up * y;
+        Bounds::of_points([corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, -1.0), corner(1.0, 1.0)])
+    }
+
     /// The ray through a point of the picture, in pixels from its upper left corner.
     #[inline]
     pub(crate) fn ray(&self, at: DVec2) -> Ray {
@@ -126,6 +137,8 @@ mod tests {
         let ray = camera.ray(DVec2::new(300.0, 100.0));
         assert_near(ray.origin, DVec3::new(6.0, -2.0, 0.0));
         assert_near(ray.direction, DVec3::NEG_Z);
+        let Bounds { min, max } = camera.origins();
+        assert!(min.x < -6.0 && max.x > 6.0 && min.y < -2.0 && max.y > 2.0 && max.y < 2.1);
     }
 
     #[test]

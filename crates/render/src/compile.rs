@@ -12,11 +12,11 @@ use crate::lights::Light;
 use crate::materials::Material;
 use crate::textures::Textures;
 use contents::Contents;
-use durer_geometry::{Bounds, Hit, Mesh, Vantage, World};
+use durer_geometry::{Bounds, Hit, Mesh, Primitive, Vantage, World};
 use durer_math::Rgb;
 use durer_scene::{Background, CheckedScene, Picture, RenderSettings, Scene};
 use imports::Brought;
-use looks::Details;
+use looks::{Details, Looks};
 use rayon::prelude::*;
 use std::sync::Arc;
 use tree::Tree;
@@ -81,25 +81,20 @@ pub fn compile(scene: &CheckedScene) -> CompiledScene {
     let materials = materials(scene);
     let contents = Contents::of(&scene.objects);
     let tree = Tree::new(&scene.objects, &contents, &materials);
-    let (mut primitives, mut objects) = (Vec::new(), Vec::new());
+    let (mut primitives, mut objects): (Vec<Primitive>, Vec<PlacedObject>) = (Vec::new(), Vec::new());
     (0..tree.len()).into_par_iter().map(|index| tree.place(index)).unzip_into_vecs(&mut primitives, &mut objects);
     let details = tree.details;
     let world = World::build(primitives);
-    let Brought { lights: brought, camera: brought_camera } = Brought::by(&scene.objects);
-    let lights: Vec<Light> = scene.lights.iter().chain(&brought).map(Light::compile).collect();
+    let brought = Brought::by(&scene.objects);
+    let lights: Vec<Light> = scene.lights.iter().chain(&brought.lights).map(Light::compile).collect();
     let Picture { width, height, .. } = scene.picture;
-    let camera = scene.camera.as_ref().or(brought_camera.as_ref());
+    let camera = scene.camera.as_ref().or(brought.camera.as_ref());
     let camera = Camera::compile(camera, world.bounds(), width, height);
-    let is_medium = |id: &u32| objects[*id as usize].looks.is_medium;
-    let media: Vec<u32> = (0..objects.len() as u32).filter(is_medium).collect();
-    let attenuation = |id: &u32| materials[objects[*id as usize].looks.material as usize].attenuation;
+    let attenuates = |looks: &Looks| looks.is_medium && materials[looks.material as usize].attenuation.is_some();
     CompiledScene {
-        attenuates: media.iter().any(|id| attenuation(id).is_some()),
-        has_holes: objects.iter().any(|object: &PlacedObject| object.looks.has_holes),
-        media_at_eye: match camera.eye() {
-            Some(eye) => media.into_iter().filter(|&id| world.primitives()[id as usize].contains(eye)).collect(),
-            None => media,
-        },
+        attenuates: objects.iter().any(|object| attenuates(&object.looks)),
+        has_holes: objects.iter().any(|object| object.looks.has_holes),
+        media_at_eye: media_at_eye(&objects, &world, &camera),
         eye_vantage: camera.eye().and_then(|eye| world.vantage(eye)),
         camera,
         light_vantages: vantages(&lights, &world),
@@ -122,6 +117,19 @@ pub fn compile(scene: &CheckedScene) -> CompiledScene {
 fn materials(scene: &Scene) -> Vec<Material> {
     let default = durer_scene::Material::default();
     scene.materials.iter().chain([&default]).map(Material::compile).collect()
+}
+
+/// The media that may be around the origin of one of the eye's rays.
+fn media_at_eye(objects: &[PlacedObject], world: &World, camera: &Camera) -> Vec<u32> {
+    let origins = camera.origins();
+    let may_be_around = |id: &u32| {
+        let primitive = &world.primitives()[*id as usize];
+        let Bounds { min, max } = primitive.bounds();
+        let overlap = min.cmple(origins.max).all() && origins.min.cmple(max).all();
+        overlap && camera.eye().is_none_or(|eye| primitive.contains(eye))
+    };
+    let media = (0..objects.len() as u32).filter(|&id| objects[id as usize].looks.is_medium);
+    media.filter(may_be_around).collect()
 }
 
 /// Vantages take time and room to make; with more lights than this, only the first get one.

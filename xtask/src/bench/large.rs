@@ -32,7 +32,9 @@ pub(crate) fn run(options: &Options<'_>) -> Result<(), String> {
     let povray = programs::povray_version()?;
     let durer = shell::build_durer()?;
     let folder = std::env::temp_dir().join(format!("durer-bench-large-{}", std::process::id()));
-    counts.iter().try_for_each(|&count| prepare(count, &folder).map_err(|error| format!("{}: {error}", folder.display())))?;
+    counts
+        .iter()
+        .try_for_each(|&count| prepare(count, &folder).map_err(|error| format!("{}: {error}", folder.display())))?;
     let cases: Vec<Case> = counts.iter().flat_map(|&count| cases(&durer, count)).collect();
     let runs = programs::rounds(&cases, rounds, &folder)?;
     let rows: Vec<Row> = cases.iter().zip(&runs).map(|(case, runs)| Row::of(case, runs)).collect();
@@ -69,7 +71,13 @@ fn cases(durer: &Path, count: usize) -> Vec<Case> {
     let tachyons = format!("-numthreads 1 -aasamples 0 -format PNG -o {}", picture(count, "tachyon"));
     let mut cases: Vec<Case> = [("durer", "csv"), ("durer, npy", "npy")].map(of_durer).into();
     cases.push(Case::new("POV-Ray", &subject, &["povray", &format!("{count}.pov")], &povs, programs::povray_tracing));
-    cases.push(Case::new(TACHYON, &subject, &["tachyon", &format!("{count}.dat")], &tachyons, programs::tachyon_tracing));
+    cases.push(Case::new(
+        TACHYON,
+        &subject,
+        &["tachyon", &format!("{count}.dat")],
+        &tachyons,
+        programs::tachyon_tracing,
+    ));
     cases
 }
 

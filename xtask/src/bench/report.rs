@@ -97,14 +97,8 @@ mod tests {
 
     #[test]
     fn ratios_are_to_durer() {
-        let row = |program, cpu| Row {
-            program,
-            subject: "5 × 4".to_owned(),
-            cpu,
-            wall: 1.0,
-            tracing: Some(cpu),
-            peak: 8.0,
-        };
+        let row =
+            |program, cpu| Row { program, subject: "5 × 4".to_owned(), cpu, wall: 1.0, tracing: Some(cpu), peak: 8.0 };
         let text = table("picture", &[row("durer", 0.1), row("Tachyon", 0.25)]);
         assert!(text.contains("| 5 × 4 | Tachyon | 0.250 | 1.000 | 0.250 | 8.0 | 2.50 | 2.50 |"), "{text}");
     }

@@ -133,13 +133,13 @@ impl<'s> Facts<'s> {
     /// A line for each kind of object that not every scene has.
     fn other_objects(&self) -> Vec<(&'static str, String)> {
         let Objects { meshes, particles, copies, imports, solids, .. } = &self.objects;
-        let triangles = count(self.memory.triangles, "triangle");
+        let (triangles, placed) = (count(self.memory.triangles, "triangle"), count(self.placed, "shape"));
         let lines = [
             (*meshes, "meshes", format!("{meshes}, of {triangles}")),
             (particles.total(), "particles", particles.text(adjective)),
             (*imports, "imports", imports.to_string()),
             (solids.total(), "solids", solids.text(adjective)),
-            (*copies, "instances", format!("{}, with which there are {}", thousands(*copies as u64), count(self.placed, "shape"))),
+            (*copies, "instances", format!("{} copies, with which there are {placed}", thousands(*copies as u64))),
         ];
         lines.into_iter().filter(|(number, ..)| *number > 0).map(|(_, title, text)| (title, text)).collect()
     }

@@ -2,8 +2,10 @@
 
 mod compare;
 mod explain;
+mod heatmap;
 mod inspect;
 mod interrupt;
+mod models;
 mod render;
 mod texts;
 mod workshop;

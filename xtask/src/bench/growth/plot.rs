@@ -66,13 +66,12 @@ fn panel_inside(panel: &Panel) -> String {
 }
 
 fn curve_in(curve: &Curve, index: usize, x: &Axis, y: &Axis) -> String {
-    let place = |&(a, b): &(f64, f64)| {
-        (LEFT + x.share(log10(a)) * WIDTH, TOP + HEIGHT - y.share(log10(b)) * HEIGHT)
-    };
+    let place = |&(a, b): &(f64, f64)| (LEFT + x.share(log10(a)) * WIDTH, TOP + HEIGHT - y.share(log10(b)) * HEIGHT);
     let places: Vec<(f64, f64)> = curve.points.iter().map(place).collect();
     let path: Vec<String> = places.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
     let color = COLORS[index % COLORS.len()];
-    let mut svg = format!("<polyline points=\"{}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"2\"/>\n", path.join(" "));
+    let mut svg =
+        format!("<polyline points=\"{}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"2\"/>\n", path.join(" "));
     for &place in &places {
         svg += &mark(place, index, color);
     }
@@ -157,7 +156,8 @@ mod tests {
     #[test]
     fn points_lie_where_their_logarithms_are() {
         let curve = |points: &[(f64, f64)]| Curve { name: "n", points: points.to_vec() };
-        let panel = || Panel { title: "t", curves: [curve(&[(1.0, 1.0), (100.0, 100.0)]), curve(&[(10.0, 10.0)]), curve(&[])] };
+        let panel =
+            || Panel { title: "t", curves: [curve(&[(1.0, 1.0), (100.0, 100.0)]), curve(&[(10.0, 10.0)]), curve(&[])] };
         let svg = draw(&[panel(), panel()]);
         let (left, right, bottom) = (LEFT, LEFT + WIDTH, TOP + HEIGHT);
         assert!(svg.contains(&format!("points=\"{left:.1},{bottom:.1} {right:.1},{TOP:.1}\"")), "{svg}");

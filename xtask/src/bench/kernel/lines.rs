@@ -64,7 +64,7 @@ impl Lines {
         let number = |name: &str| line[name].as_f64();
         let who = Who { program: word("program")?, variant: word("variant")?, scene: word("scene")? };
         match line["measure"].as_str()? {
-            "scene" => return self.check(who, line["count"].as_u64()? as usize, &line["hashes"]),
+            "scene" => return self.check(&who, line["count"].as_u64()? as usize, &line["hashes"]),
             "version" => self.embree_version = line["number"].as_u64(),
             "build" => {
                 let (bytes, list_bytes) = (number("bytes")?, number("list_bytes")?);
@@ -82,7 +82,7 @@ impl Lines {
     }
 
     /// An error if another program has made another scene of this name.
-    fn check(&mut self, who: Who, count: usize, hashes: &Value) -> Option<Result<(), String>> {
+    fn check(&mut self, who: &Who, count: usize, hashes: &Value) -> Option<Result<(), String>> {
         let known = self.scenes.entry(who.scene.clone()).or_insert_with(|| (count, hashes.clone()));
         if *known == (count, hashes.clone()) {
             return Some(Ok(()));
@@ -123,7 +123,8 @@ impl Lines {
                 None => builds.push((who, *build, vec![build.seconds])),
             }
         }
-        let with_median = |(who, build, seconds)| (who, Build { seconds: median(seconds).unwrap_or(f64::NAN), ..build });
+        let with_median =
+            |(who, build, seconds)| (who, Build { seconds: median(seconds).unwrap_or(f64::NAN), ..build });
         builds.into_iter().map(with_median).collect()
     }
 }
@@ -155,7 +156,9 @@ mod tests {
     #[test]
     fn scenes_must_be_the_same() {
         let scene = |hash| {
-            format!(r#"{{"program": "a", "variant": "", "scene": "soup", "measure": "scene", "count": 8, "hashes": ["{hash}"]}}"#)
+            format!(
+                r#"{{"program": "a", "variant": "", "scene": "soup", "measure": "scene", "count": 8, "hashes": ["{hash}"]}}"#
+            )
         };
         let mut lines = Lines::default();
         lines.read(&format!("{}\n{}", scene("1"), scene("1"))).unwrap();

@@ -152,7 +152,8 @@ fn builds(lines: &Lines, scenes: &[&str]) -> String {
         for (who, build) in lines.builds(scene) {
             let variant = if who.variant.is_empty() { String::new() } else { format!(", {}", who.variant) };
             let (bytes, all) = (build.bytes / things, (build.bytes + build.list_bytes) / things);
-            let _ = writeln!(text, "| {scene} | {}{variant} | {:.3} | {bytes:.1} | {all:.1} |", who.program, build.seconds);
+            let _ =
+                writeln!(text, "| {scene} | {}{variant} | {:.3} | {bytes:.1} | {all:.1} |", who.program, build.seconds);
         }
     }
     text + "\nLists are the corners and the triangles that they are joined to, where a program needs them beside its tree.\n"

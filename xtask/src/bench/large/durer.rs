@@ -100,7 +100,8 @@ mod tests {
     #[test]
     fn text_tables_have_a_row_for_each() {
         let (balls, rods) = (written(balls, "csv"), written(rods, "csv"));
-        let lines = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap().lines().map(str::to_owned).collect::<Vec<_>>();
+        let lines =
+            |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap().lines().map(str::to_owned).collect::<Vec<_>>();
         assert_eq!((lines(&balls).len(), lines(&rods).len()), (1 + 6, 1 + 5));
         assert!(lines(&balls).iter().all(|line| line.split(',').count() == 7));
         assert!(lines(&rods)[1].ends_with(",0.2,0.8,0.2"), "{}", lines(&rods)[1]);

@@ -22,7 +22,10 @@ pub(super) fn write(count: usize, size: u32, out: &mut impl Write) -> io::Result
 fn head(size: u32, out: &mut impl Write) -> io::Result<()> {
     let half = HALF_HEIGHT;
     let (eye, forward) = (Numbers(EYE.to_array()), Numbers((-EYE.normalize()).to_array()));
-    writeln!(out, "BEGIN_SCENE\nRESOLUTION {size} {size}\nCAMERA\n PROJECTION PERSPECTIVE\n ZOOM 1.0\n ASPECTRATIO 1.0")?;
+    writeln!(
+        out,
+        "BEGIN_SCENE\nRESOLUTION {size} {size}\nCAMERA\n PROJECTION PERSPECTIVE\n ZOOM 1.0\n ASPECTRATIO 1.0"
+    )?;
     writeln!(out, " ANTIALIASING 0\n RAYDEPTH 5\n CENTER {eye}\n VIEWDIR {forward}\n UPDIR 0 1 0")?;
     writeln!(out, " FRUSTUM {half} -{half} -{half} {half}\nEND_CAMERA\nBACKGROUND {}", Numbers(BACKGROUND))?;
     writeln!(out, "LIGHT CENTER {} RAD 0.0 COLOR 1 1 1", Numbers(LAMP.to_array()))?;

@@ -5,8 +5,12 @@
 //! corner is that in the polygon's own plane.
 //!
 //! Only corners that are not strictly convex can lie in an ear, so only these are looked at; in a grid, since CAD
-//! programs write caps with thousands of corners. Corners that lie in the same place as one of the ear's own do not
-//! count: that is how holes are written, with a cut to them that is walked in both directions.
+//! programs write caps with thousands of corners. A corner in the same place as one of the ear's own counts only if an
+//! edge goes from it into the ear: holes are written with a cut to them that is walked in both directions, so its ends
+//! come twice.
+//!
+//! Where a polygon touches itself, rounding must not decide whether a corner is in the way. So at first what is within
+//! a small distance counts as on the line, or in the place; only if that leaves no ear does every bit count.
 
 use durer_math::{DVec2, DVec3};
 use std::cmp::Reverse;
@@ -21,8 +25,13 @@ pub(super) struct Clipping {
     hindrances: usize,
     /// What may be ears, the best last, by rank, corner and round; those of an old round no longer count.
     candidates: BinaryHeap<(u32, Reverse<u32>, u32)>,
+    /// How near to a line or a place counts as on it.
+    tolerance: f64,
     grid: Grid,
 }
+
+/// The tolerance, for a polygon of size 1: a few times the rounding of single precision.
+const TOLERANCE: f64 = 3e-7;
 
 #[derive(Clone, Copy, Debug)]
 struct Corner {
@@ -31,6 +40,8 @@ struct Corner {
     after: u32,
     /// Rounds: how often its neighbors have changed.
     round: u32,
+    /// The last corner that was found to be in the way of it.
+    hindrance: u32,
     kind: Kind,
 }
 
@@ -58,8 +69,12 @@ impl Clipping {
             before: ((at + count - 1) % count) as u32,
             after: ((at + 1) % count) as u32,
             round: 0,
+            hindrance: at as u32,
             kind: Kind::Hindrance,
         }));
+        let places = || self.corners.iter().map(|corner| corner.place);
+        let size = places().fold(DVec2::NEG_INFINITY, DVec2::max) - places().fold(DVec2::INFINITY, DVec2::min);
+        self.tolerance = TOLERANCE * size.max_element();
         (0..count).for_each(|at| self.classify(at));
         self.grid.fill(&self.corners, self.hindrances);
     }
@@ -78,8 +93,9 @@ impl Clipping {
                 }
                 Some(_) => {}
                 None if *patience == 0 => self.fan(triangle),
-                // An ear may have become one without its own neighbors' doing, where corners touch.
-                None if !fresh => {
+                // Also, an ear may have become one without its own neighbors' doing, where corners touch.
+                None if self.tolerance > 0.0 || !fresh => {
+                    self.tolerance = 0.0;
                     self.all_left(patience).for_each(|at| self.judge(at));
                     fresh = true;
                 }
@@ -154,7 +170,9 @@ impl Clipping {
     }
 
     fn classify(&mut self, at: usize) {
-        self.become_kind(at, if self.bend(at) > 0.0 { Kind::Convex } else { Kind::Hindrance });
+        let [a, b, c] = self.triangle(at);
+        let is_convex = area(a, b, c) > self.tolerance * longest(a, b, c);
+        self.become_kind(at, if is_convex { Kind::Convex } else { Kind::Hindrance });
     }
 
     fn become_kind(&mut self, at: usize, kind: Kind) {
@@ -179,8 +197,9 @@ impl Clipping {
     fn rank(&self, at: usize) -> Option<u32> {
         let [a, b, c] = self.triangle(at);
         let double_area = area(a, b, c);
-        if double_area == 0.0 {
-            let there_and_back = a == b || b == c || (a - b).dot(c - b) > 0.0;
+        if double_area.abs() <= self.tolerance * longest(a, b, c) {
+            let is_there = |p, q| is_near(p, q, self.tolerance);
+            let there_and_back = is_there(a, b) || is_there(b, c) || (a - b).dot(c - b) > 0.0;
             return Some(if there_and_back { u32::MAX } else { 0 });
         }
         // 1 for equal sides.
@@ -192,9 +211,73 @@ impl Clipping {
     /// True if some other corner lies in the triangle of a corner and its neighbors. This takes time, so it is asked of a
     /// candidate only when its turn has come. When patience is over, the rest is done blindly.
     fn is_hindered(&mut self, at: usize, patience: &mut u64) -> bool {
-        let triangle = self.triangle(at);
+        let ear = Ear::new(self.triangle(at), self.tolerance);
+        if *patience == 0 || ear.is_flat() {
+            return false;
+        }
+        // What was in the way before, or is beside it, often is again.
+        let Corner { before, after, .. } = self.corners[self.corners[at].hindrance as usize];
+        let known = [self.corners[at].hindrance, before, after];
+        if known.into_iter().any(|other| ear.is_hindered_by(other, &self.corners)) {
+            return true;
+        }
+        let found = self.grid.find_hindrance(&self.corners, &ear, patience);
+        self.corners[at].hindrance = found.unwrap_or(self.corners[at].hindrance);
+        found.is_some()
+    }
+}
+
+/// A corner and its neighbors, counter-clockwise.
+struct Ear {
+    triangle: [DVec2; 3],
+    /// The box around it.
+    low: DVec2,
+    high: DVec2,
+    tolerance: f64,
+    /// The tolerance as twice an area over each side.
+    slack: [f64; 3],
+}
+
+impl Ear {
+    fn new(triangle: [DVec2; 3], tolerance: f64) -> Ear {
         let [a, b, c] = triangle;
-        *patience > 0 && area(a, b, c) > 0.0 && self.grid.finds_hindrance(&self.corners, triangle, patience)
+        let slack = [b - a, c - b, a - c].map(|side| tolerance * side.length());
+        let (low, high) = (a.min(b).min(c) - tolerance, a.max(b).max(c) + tolerance);
+        Ear { triangle, low, high, tolerance, slack }
+    }
+
+    /// Twice the areas between each side and a point, positive on the inner side.
+    #[inline]
+    fn areas(&self, p: DVec2) -> [f64; 3] {
+        let [a, b, c] = self.triangle;
+        [area(a, b, p), area(b, c, p), area(c, a, p)]
+    }
+
+    /// True if nothing can lie in it.
+    fn is_flat(&self) -> bool {
+        let [a, b, c] = self.triangle;
+        area(a, b, c) <= self.slack[0].max(self.slack[1]).max(self.slack[2])
+    }
+
+    /// True if this corner of the polygon lies in it or on its edge, or in the place of one of its tips with an edge that
+    /// goes into it.
+    #[inline]
+    fn is_hindered_by(&self, at: u32, corners: &[Corner]) -> bool {
+        let Corner { place, before, after, kind, .. } = corners[at as usize];
+        // Far beyond the tip of a thin triangle its lines alone are not enough.
+        let is_near_by = kind == Kind::Hindrance && place.cmpge(self.low).all() && place.cmple(self.high).all();
+        if !is_near_by || self.areas(place).iter().zip(self.slack).any(|(area, slack)| *area < -slack) {
+            return false;
+        }
+        let Some(tip) = self.triangle.iter().position(|tip| is_near(place, *tip, self.tolerance)) else {
+            return true;
+        };
+        // The sides that meet in that tip.
+        let sides = [tip, (tip + 2) % 3];
+        [before, after].into_iter().any(|end| {
+            let areas = self.areas(corners[end as usize].place);
+            sides.into_iter().all(|side| areas[side] > self.slack[side])
+        })
     }
 }
 
@@ -217,6 +300,18 @@ fn flattening(normal: DVec3) -> impl Fn(DVec3) -> DVec2 {
 #[inline]
 fn area(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
+}
+
+/// The length of the longest side.
+#[inline]
+fn longest(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared()).sqrt()
+}
+
+/// True if two places are the same, up to a distance along each axis.
+#[inline]
+fn is_near(p: DVec2, q: DVec2, tolerance: f64) -> bool {
+    (p - q).abs().max_element() <= tolerance
 }
 
 /// A grid over the polygon with the corners that may be in the way.
@@ -284,32 +379,28 @@ impl Grid {
         row * self.columns + column
     }
 
-    /// True if a corner that is still there lies in this triangle or on its edge. Takes those out of the grid that are
-    /// no longer in anyone's way.
-    fn finds_hindrance(&mut self, corners: &[Corner], [a, b, c]: [DVec2; 3], patience: &mut u64) -> bool {
-        let [first_column, first_row] = self.column_and_row(a.min(b).min(c));
-        let [last_column, last_row] = self.column_and_row(a.max(b).max(c));
-        let hinders = |p: DVec2| {
-            (area(a, b, p) >= 0.0 && area(b, c, p) >= 0.0 && area(c, a, p) >= 0.0) && !(p == a || p == b || p == c)
-        };
+    /// A corner that is in the way of an ear. Takes those out of the grid that are no longer in anyone's way.
+    fn find_hindrance(&mut self, corners: &[Corner], ear: &Ear, patience: &mut u64) -> Option<u32> {
+        let [first_column, first_row] = self.column_and_row(ear.low);
+        let [last_column, last_row] = self.column_and_row(ear.high);
         for row in first_row..=last_row {
             let cells = row * self.columns + first_column..=row * self.columns + last_column;
             for [start, end] in &mut self.spans[cells] {
                 *patience = patience.saturating_sub(1 + u64::from(*end - *start));
                 let mut at = *start;
                 while at < *end {
-                    let Corner { place, kind, .. } = corners[self.items[at as usize] as usize];
-                    if kind != Kind::Hindrance {
+                    let item = self.items[at as usize];
+                    if corners[item as usize].kind != Kind::Hindrance {
                         *end -= 1;
                         self.items.swap(at as usize, *end as usize);
-                    } else if hinders(place) {
-                        return true;
+                    } else if ear.is_hindered_by(item, corners) {
+                        return Some(item);
                     } else {
                         at += 1;
                     }
                 }
             }
         }
-        false
+        None
     }
 }

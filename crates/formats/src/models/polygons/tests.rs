@@ -167,6 +167,24 @@ fn random_star_shapes_are_covered_once() {
 }
 
 #[test]
+fn skylines_are_covered_once() {
+    // Everything happens here: corners in one place, on one line, and houses of no height, where top and ground touch.
+    let mut random = 11_u64;
+    for count in 2..40 {
+        let mut corners = Vec::new();
+        for i in (0..count).rev() {
+            random ^= random << 13;
+            random ^= random >> 7;
+            random ^= random << 17;
+            let height = (random % 4) as f64;
+            corners.extend([[f64::from(i) + 1.0, height], [f64::from(i), height]]);
+        }
+        corners.extend((0..=count).map(|i| [f64::from(i), 0.0]));
+        assert_covers(&corners);
+    }
+}
+
+#[test]
 fn large_polygons_take_little_time() {
     // A comb: half of its corners are in the way of others.
     let teeth = 20_000;
