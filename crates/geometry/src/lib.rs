@@ -15,5 +15,6 @@ mod world;
 pub use bounds::Bounds;
 pub use primitive::{Primitive, Surface};
 pub use ray::{Crossing, Ray};
+pub use shapes::solid::{Operand, Operation};
 pub use vantage::Vantage;
 pub use world::{Hit, World};

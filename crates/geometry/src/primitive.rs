@@ -2,13 +2,14 @@
 
 use crate::shapes::{
     Shape, cone::Cone, cuboid::Cuboid, cylinder::Cylinder, disc::Disc, plane::Plane, rectangle::Rectangle,
-    sphere::Sphere, torus::Torus, triangle::Triangle,
+    solid::Solid, sphere::Sphere, torus::Torus, triangle::Triangle,
 };
 use crate::{Bounds, Crossing, Ray};
 use durer_math::{DAffine3, DMat3, DVec2, DVec3, rotation_between};
+use std::sync::Arc;
 
 /// A shape in its canonical space. To add one, see CONTRIBUTING.md.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum Kind {
     Plane(Plane),
     Sphere(Sphere),
@@ -19,6 +20,7 @@ enum Kind {
     Rectangle(Rectangle),
     Triangle(Triangle),
     Torus(Torus),
+    Solid(Arc<Solid>),
 }
 
 /// Evaluates an expression for whatever shape it is: a call of a method of [`Shape`] on whatever shape it is.
@@ -34,12 +36,18 @@ macro_rules! each_kind {
             Kind::Rectangle($shape) => $call,
             Kind::Triangle($shape) => $call,
             Kind::Torus($shape) => $call,
+            Kind::Solid(solid) => {
+                let $shape = &**solid;
+                $call
+            }
         }
     };
 }
 
+pub(crate) mod operand;
+
 /// A shape placed in the world by an affine map, which may scale, shear and mirror it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Primitive {
     kind: Kind,
     /// A bit for each class of rays that sees it; a query names the classes that it asks for.
@@ -149,7 +157,8 @@ impl Primitive {
             | Kind::Cylinder(_)
             | Kind::Cone(_)
             | Kind::Triangle(_)
-            | Kind::Torus(_) => None,
+            | Kind::Torus(_)
+            | Kind::Solid(_) => None,
         };
         Primitive {
             flat,
@@ -185,7 +194,8 @@ impl Primitive {
             | Kind::Disc(_)
             | Kind::Rectangle(_)
             | Kind::Triangle(_)
-            | Kind::Torus(_) => None,
+            | Kind::Torus(_)
+            | Kind::Solid(_) => None,
         }
     }
 
@@ -196,8 +206,13 @@ impl Primitive {
         each_kind!(&self.kind, shape => shape.intersect(&self.ray_in_shape(ray), t_max))
     }
 
-    /// How often the ray crosses it with 0 < t < `t_max`; no shape is crossed more than four times.
+    /// How often the ray crosses it with 0 < t < `t_max`; no shape but a solid is crossed more than four times.
     pub fn count_crossings(&self, ray: &Ray, t_max: f64) -> u32 {
+        if let Kind::Solid(_) = self.kind {
+            let mut count = 0;
+            self.crossings(ray, &mut |crossing| count += u32::from(crossing.t < t_max));
+            return count;
+        }
         let (mut ray, mut t_max, mut count) = (*ray, t_max, 0);
         while let Some(crossing) = self.intersect(&ray, t_max)
             && count < 4
@@ -220,18 +235,19 @@ impl Primitive {
 
     #[inline(always)]
     fn surface_of(&self, shape: &impl Shape, near: DVec3, part: u32) -> Surface {
-        let (snapped, normal) = shape.surface(self.in_shape(near), part);
+        let (snapped, canonical_normal) = shape.surface(self.in_shape(near), part);
         let point = self.origin + self.world_from_shape * snapped;
         let (normal, per_stretch) = match self.flat {
             Some(known) => known,
-            None => outward_normal(&self.shape_from_world, normal),
+            None => outward_normal(&self.shape_from_world, canonical_normal),
         };
         // How far the point may seem to be from the surface when a new ray's origin is mapped back to the canonical
         // space: the shape's own rounding, that of the inverse map, and that of applying the two maps (a few operations
         // of half an ulp each).
         let [world_norm, shape_norm] = self.norms;
         let reach = world_norm * largest(snapped) + largest(point) + largest(self.origin);
-        let doubt = shape.rounding() + self.residual * largest(snapped) + 16.0 * f64::EPSILON * shape_norm * reach;
+        let rounding = shape.rounding_at(snapped, canonical_normal, part);
+        let doubt = rounding + self.residual * largest(snapped) + 16.0 * f64::EPSILON * shape_norm * reach;
         // A step of s along the world's unit normal is one of s · stretch along the canonical one.
         Surface { point, normal, offset: 4.0 * doubt * per_stretch }
     }
