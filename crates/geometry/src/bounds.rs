@@ -33,6 +33,16 @@ impl Bounds {
         Bounds { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
+    /// What both contain.
+    pub fn intersection(self, other: Bounds) -> Bounds {
+        Bounds { min: self.min.max(other.min), max: self.max.min(other.max) }
+    }
+
+    /// The box larger by a margin on every side.
+    pub fn widened(self, margin: f64) -> Bounds {
+        Bounds { min: self.min - margin, max: self.max + margin }
+    }
+
     /// True if it contains no point.
     pub fn is_empty(&self) -> bool {
         self.min.cmpgt(self.max).any()
@@ -54,10 +64,14 @@ impl Bounds {
         d.x * d.y + d.y * d.z + d.z * d.x
     }
 
-    /// A box around the image of this one under `map`, widened by what rounding may take away.
+    /// A box around the image of this one under `map`, widened by what rounding may take away; infinite on every side if
+    /// this one is on any.
     pub fn transformed(&self, map: &DAffine3) -> Bounds {
         if self.is_empty() {
             return *self;
+        }
+        if !(self.min.is_finite() && self.max.is_finite()) {
+            return Bounds { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
         }
         let (center, half) = (self.center(), self.size() * 0.5);
         let m = map.matrix3;

@@ -19,5 +19,6 @@ pub use packet::{LANES, Packet, PacketHits};
 pub use primitive::{Primitive, Surface};
 pub use ray::{Crossing, Ray};
 pub use shapes::mesh::{Mesh, MeshSource};
+pub use shapes::solid::{Operand, Operation};
 pub use vantage::Vantage;
 pub use world::{Hit, World};

@@ -3,7 +3,7 @@
 use crate::packet::{LANES, Packet, PacketHits};
 use crate::shapes::{
     Shape, cone::Cone, cuboid::Cuboid, cylinder::Cylinder, disc::Disc, mesh::Mesh, plane::Plane, rectangle::Rectangle,
-    sphere::Sphere, torus::Torus, triangle::Triangle,
+    solid::Solid, sphere::Sphere, torus::Torus, triangle::Triangle,
 };
 use crate::{Bounds, Crossing, Ray, Work};
 use durer_math::{DAffine3, DMat3, DVec2, DVec3, rotation_between};
@@ -22,6 +22,7 @@ enum Kind {
     Triangle(Triangle),
     Torus(Torus),
     Mesh(Arc<Mesh>),
+    Solid(Arc<Solid>),
 }
 
 /// Evaluates an expression for whatever shape it is: a call of a method of [`Shape`] on whatever shape it is.
@@ -41,12 +42,18 @@ macro_rules! each_kind {
                 let $shape = &**mesh;
                 $call
             }
+            Kind::Solid(solid) => {
+                let $shape = &**solid;
+                $call
+            }
         }
     };
 }
 
 /// More surfaces one behind the other than this are not looked at: what light is left then is nothing.
 const MOST_CROSSINGS: u32 = 100_000;
+
+pub(crate) mod operand;
 
 /// A shape placed in the world by an affine map, which may scale, shear and mirror it.
 #[derive(Clone, Debug)]
@@ -165,7 +172,8 @@ impl Primitive {
             | Kind::Cone(_)
             | Kind::Triangle(_)
             | Kind::Torus(_)
-            | Kind::Mesh(_) => None,
+            | Kind::Mesh(_)
+            | Kind::Solid(_) => None,
         };
         Primitive {
             flat,
@@ -202,7 +210,8 @@ impl Primitive {
             | Kind::Rectangle(_)
             | Kind::Triangle(_)
             | Kind::Torus(_)
-            | Kind::Mesh(_) => None,
+            | Kind::Mesh(_)
+            | Kind::Solid(_) => None,
         }
     }
 
@@ -293,7 +302,7 @@ impl Primitive {
             | Kind::Rectangle(_)
             | Kind::Triangle(_)
             | Kind::Torus(_) => 4,
-            Kind::Mesh(_) => MOST_CROSSINGS,
+            Kind::Mesh(_) | Kind::Solid(_) => MOST_CROSSINGS,
         }
     }
 
@@ -306,18 +315,19 @@ impl Primitive {
 
     #[inline(always)]
     fn surface_of(&self, shape: &impl Shape, near: DVec3, part: u32) -> Surface {
-        let (snapped, normal) = shape.surface(self.in_shape(near), part);
+        let (snapped, canonical_normal) = shape.surface(self.in_shape(near), part);
         let point = self.origin + self.world_from_shape * snapped;
         let (normal, per_stretch) = match self.flat {
             Some(known) => known,
-            None => outward_normal(&self.shape_from_world, normal),
+            None => outward_normal(&self.shape_from_world, canonical_normal),
         };
         // How far the point may seem to be from the surface when a new ray's origin is mapped back to the canonical
         // space: the shape's own rounding, that of the inverse map, and that of applying the two maps (a few operations
         // of half an ulp each).
         let [world_norm, shape_norm] = self.norms;
         let reach = world_norm * largest(snapped) + largest(point) + largest(self.origin);
-        let doubt = shape.rounding(part) + self.residual * largest(snapped) + 16.0 * f64::EPSILON * shape_norm * reach;
+        let rounding = shape.rounding_at(snapped, canonical_normal, part);
+        let doubt = rounding + self.residual * largest(snapped) + 16.0 * f64::EPSILON * shape_norm * reach;
         // A step of s along the world's unit normal is one of s · stretch along the canonical one.
         Surface { point, normal, offset: 4.0 * doubt * per_stretch }
     }

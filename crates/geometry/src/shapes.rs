@@ -11,6 +11,7 @@ pub(crate) mod disc;
 pub(crate) mod mesh;
 pub(crate) mod plane;
 pub(crate) mod rectangle;
+pub(crate) mod solid;
 mod span;
 pub(crate) mod sphere;
 #[cfg(test)]
@@ -58,4 +59,29 @@ pub(crate) trait Shape {
     /// How far from the surface, along its normal, [`Shape::intersect`] may see a point that [`Shape::surface`] gave for
     /// `part`.
     fn rounding(&self, part: u32) -> f64;
+
+    /// [`Shape::rounding`] at one point of `part` with this unit normal, for a shape in which it differs much.
+    fn rounding_at(&self, _point: DVec3, _normal: DVec3, part: u32) -> f64 {
+        self.rounding(part)
+    }
+
+    /// How many parts there are: those of all crossings are below this.
+    fn part_count(&self) -> u32 {
+        1
+    }
+
+    /// Calls `visit` for every crossing of a closed shape with t > 0, in any order; gives whether the ray starts inside.
+    /// Does nothing and gives false for a shape without an inside.
+    ///
+    /// Passed in the order of t, each crossing leads from inside to outside or back. So the answer tells one consistent
+    /// story of the ray, whatever was rounded.
+    fn crossings(&self, _ray: &Ray, _visit: &mut dyn FnMut(Crossing)) -> bool {
+        false
+    }
+
+    /// The outward unit normal of a face in which the ray lies, but for `width`, for all t in `range`. Only faces that
+    /// contain straight lines need to be looked at.
+    fn face_along(&self, _ray: &Ray, _range: (f64, f64), _width: f64) -> Option<DVec3> {
+        None
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::Shape;
 use super::cylinder::first_of_side;
-use super::span::{INSET, Span, into_cap};
+use super::span::{INSET, Span, into_cap, plane_along};
 use super::sphere::longitude;
 use crate::{Bounds, Crossing, Ray};
 use durer_math::{DVec2, DVec3};
@@ -83,6 +83,19 @@ impl Cone {
         Some(Span { enter, exit, enter_part: 0, exit_part: 0 })
     }
 
+    /// The piece inside the closed cone of a ray that was brought near; `None` if it lies behind or the ray misses.
+    #[inline]
+    fn closed(&self, near: &Ray) -> Option<Span> {
+        let slab = Span::slab(near.origin.y, near.direction.y, HEIGHTS, (1, 2))?;
+        Some(self.endless(near)?.and(slab))
+    }
+
+    /// How far outside the endless side a point is, for points near it.
+    fn height_above_side(&self, p: DVec3) -> f64 {
+        let k = self.slope();
+        ((p.x * p.x + p.z * p.z).sqrt() - self.radius_at(p.y)) / (1.0 + k * k).sqrt()
+    }
+
     /// The nearest point of the side, and the normal there; at an apex the normal is the axis.
     fn side_at(&self, p: DVec3) -> (DVec3, DVec3) {
         let k = self.slope();
@@ -155,8 +168,7 @@ impl Shape for Cone {
         let hit = if self.open {
             first_of_side(&near, self.endless(&near)?, HEIGHTS)?
         } else {
-            let slab = Span::slab(near.origin.y, near.direction.y, HEIGHTS, (1, 2))?;
-            self.endless(&near)?.and(slab).first()?
+            self.closed(&near)?.first()?
         };
         let t = hit.t + skipped;
         (t < t_max).then_some(Crossing { t, part: hit.part })
@@ -181,6 +193,30 @@ impl Shape for Cone {
     fn contains(&self, p: DVec3) -> bool {
         let w = self.radius_at(p.y);
         !self.open && p.y > 0.0 && p.y < 1.0 && p.x * p.x + p.z * p.z < w * w
+    }
+
+    fn part_count(&self) -> u32 {
+        3
+    }
+
+    fn crossings(&self, ray: &Ray, visit: &mut dyn FnMut(Crossing)) -> bool {
+        let Some((near, skipped)) = brought_near(ray) else { return false };
+        let mut visit = |hit: Crossing| visit(Crossing { t: hit.t + skipped, part: hit.part });
+        !self.open && self.closed(&near).is_some_and(|span| span.ends(&mut visit))
+    }
+
+    /// A ray lies in the side if it does at both ends and in the middle, for what it is above it is a hyperbola.
+    fn face_along(&self, ray: &Ray, range: (f64, f64), width: f64) -> Option<DVec3> {
+        let (y, rate) = (ray.origin.y, ray.direction.y);
+        let cap = plane_along(y, rate, HEIGHTS, range, width).map(|side| DVec3::Y * side);
+        cap.or_else(|| {
+            // Beyond the tip the generator goes on in the opposite cone.
+            let slab = Span::slab(y, rate, HEIGHTS, (1, 2))?;
+            let (from, to) = (slab.enter.max(range.0), slab.exit.min(range.1));
+            let points = [from, 0.5 * (from + to), to].map(|t| ray.at(t));
+            let along = from < to && points.iter().all(|&p| self.height_above_side(p).abs() <= width);
+            along.then(|| self.side_at(points[1]).1)
+        })
     }
 
     /// With u = 2⁻⁵³: putting a point on the side leaves it within 5 u; x² + z² - w² is computed to 8 u times its
@@ -218,6 +254,7 @@ mod tests {
             known.hits_obey_the_equation();
             known.crossings_match_sampling(&|p| level(p).max(-p.y).max(p.y - 1.0), true, |_| true);
             known.leaves_and_enters_once(true);
+            known.crossings_are_those_found_one_by_one();
             known.far_rays_are_precise(true);
         });
     }

@@ -1,7 +1,7 @@
 //! The cube from -1 to 1; under a transform, any box.
 
 use super::Shape;
-use super::span::{INSET, Span};
+use super::span::{INSET, Span, plane_along};
 use crate::{Bounds, Crossing, Ray};
 use durer_math::{DVec2, DVec3};
 
@@ -11,6 +11,16 @@ pub(crate) struct Cuboid;
 
 const RANGE: (f64, f64) = (-1.0, 1.0);
 
+/// The piece of the ray inside; `None` if it lies behind or the ray misses.
+#[inline]
+fn span(ray: &Ray) -> Option<Span> {
+    let (o, d) = (ray.origin, ray.direction);
+    let x = Span::slab(o.x, d.x, RANGE, (0, 1))?;
+    let y = Span::slab(o.y, d.y, RANGE, (2, 3))?;
+    let z = Span::slab(o.z, d.z, RANGE, (4, 5))?;
+    Some(x.and(y).and(z))
+}
+
 impl Shape for Cuboid {
     fn bounds(&self) -> Bounds {
         Bounds { min: DVec3::NEG_ONE, max: DVec3::ONE }
@@ -18,11 +28,7 @@ impl Shape for Cuboid {
 
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<Crossing> {
-        let (o, d) = (ray.origin, ray.direction);
-        let x = Span::slab(o.x, d.x, RANGE, (0, 1))?;
-        let y = Span::slab(o.y, d.y, RANGE, (2, 3))?;
-        let z = Span::slab(o.z, d.z, RANGE, (4, 5))?;
-        x.and(y).and(z).first().filter(|hit| hit.t < t_max)
+        span(ray)?.first().filter(|hit| hit.t < t_max)
     }
 
     fn surface(&self, point: DVec3, part: u32) -> (DVec3, DVec3) {
@@ -54,6 +60,19 @@ impl Shape for Cuboid {
         point.abs().max_element() < 1.0
     }
 
+    fn part_count(&self) -> u32 {
+        6
+    }
+
+    fn crossings(&self, ray: &Ray, visit: &mut dyn FnMut(Crossing)) -> bool {
+        span(ray).is_some_and(|span| span.ends(visit))
+    }
+
+    fn face_along(&self, ray: &Ray, range: (f64, f64), width: f64) -> Option<DVec3> {
+        let (o, d) = (ray.origin, ray.direction);
+        (0..3).find_map(|axis| plane_along(o[axis], d[axis], RANGE, range, width).map(|side| DVec3::AXES[axis] * side))
+    }
+
     /// Zero: on a face the coordinate is ±1 exactly, and the sign of its difference from ±1 is what decides.
     fn rounding(&self, _part: u32) -> f64 {
         0.0
@@ -75,6 +94,7 @@ mod tests {
         KNOWN.hits_obey_the_equation();
         KNOWN.crossings_match_sampling(&|p| p.abs().max_element() - 1.0, true, |_| true);
         KNOWN.leaves_and_enters_once(true);
+        KNOWN.crossings_are_those_found_one_by_one();
         KNOWN.far_rays_are_precise(true);
     }
 

@@ -1,7 +1,7 @@
 //! The cylinder about the y axis with radius 1, from y = -1 to y = 1; a tube if open.
 
 use super::Shape;
-use super::span::{INSET, Span, into_cap};
+use super::span::{INSET, Span, into_cap, plane_along};
 use super::sphere::longitude;
 use crate::{Bounds, Crossing, Ray};
 use durer_math::{DVec2, DVec3};
@@ -47,6 +47,13 @@ fn endless(ray: &Ray) -> Option<Span> {
     }
 }
 
+/// The piece of the ray inside the closed cylinder; `None` if it lies behind or the ray misses.
+#[inline]
+fn closed(ray: &Ray) -> Option<Span> {
+    let slab = Span::slab(ray.origin.y, ray.direction.y, HEIGHTS, (1, 2))?;
+    Some(endless(ray)?.and(slab))
+}
+
 /// The first crossing with an endless surface, of those ahead that have their y between `low` and `high`.
 #[inline]
 pub(super) fn first_of_side(ray: &Ray, side: Span, (low, high): (f64, f64)) -> Option<Crossing> {
@@ -64,12 +71,7 @@ impl Shape for Cylinder {
 
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<Crossing> {
-        let hit = if self.open {
-            first_of_side(ray, endless(ray)?, HEIGHTS)?
-        } else {
-            let slab = Span::slab(ray.origin.y, ray.direction.y, HEIGHTS, (1, 2))?;
-            endless(ray)?.and(slab).first()?
-        };
+        let hit = if self.open { first_of_side(ray, endless(ray)?, HEIGHTS)? } else { closed(ray)?.first()? };
         (hit.t < t_max).then_some(hit)
     }
 
@@ -95,6 +97,23 @@ impl Shape for Cylinder {
 
     fn contains(&self, p: DVec3) -> bool {
         !self.open && p.x * p.x + p.z * p.z < 1.0 && p.y.abs() < 1.0
+    }
+
+    fn part_count(&self) -> u32 {
+        3
+    }
+
+    fn crossings(&self, ray: &Ray, visit: &mut dyn FnMut(Crossing)) -> bool {
+        !self.open && closed(ray).is_some_and(|span| span.ends(visit))
+    }
+
+    fn face_along(&self, ray: &Ray, range: (f64, f64), width: f64) -> Option<DVec3> {
+        let cap = plane_along(ray.origin.y, ray.direction.y, HEIGHTS, range, width).map(|side| DVec3::Y * side);
+        cap.or_else(|| {
+            let [from, to] = [range.0, range.1].map(|t| ray.at(t) * DVec3::new(1.0, 0.0, 1.0));
+            let along = (from.length() - 1.0).abs() <= width && (to - from).length() <= width;
+            along.then(|| from.normalize())
+        })
     }
 
     /// As for the sphere, whose reasoning holds for x and z alone.
@@ -125,6 +144,7 @@ mod tests {
         CLOSED.hits_obey_the_equation();
         CLOSED.crossings_match_sampling(&depth, true, |_| true);
         CLOSED.leaves_and_enters_once(true);
+        CLOSED.crossings_are_those_found_one_by_one();
         CLOSED.far_rays_are_precise(true);
     }
 

@@ -1,6 +1,7 @@
 //! The plane y = 0. Its outside is above; rays hit it from both sides.
 
 use super::Shape;
+use super::span::{Span, plane_along};
 use crate::{Bounds, Crossing, Ray};
 use durer_math::{DVec2, DVec3};
 
@@ -39,6 +40,21 @@ impl Shape for Plane {
         point.y < 0.0
     }
 
+    /// The half-space is a span without one of its ends.
+    fn crossings(&self, ray: &Ray, visit: &mut dyn FnMut(Crossing)) -> bool {
+        let (y, rate) = (ray.origin.y, ray.direction.y);
+        if rate == 0.0 {
+            return y < 0.0;
+        }
+        let t = -y / rate;
+        let (enter, exit) = if rate < 0.0 { (t, f64::INFINITY) } else { (f64::NEG_INFINITY, t) };
+        Span { enter, exit, enter_part: 0, exit_part: 0 }.ends(visit)
+    }
+
+    fn face_along(&self, ray: &Ray, range: (f64, f64), width: f64) -> Option<DVec3> {
+        plane_along(ray.origin.y, ray.direction.y, (0.0, 0.0), range, width).map(|_| DVec3::Y)
+    }
+
     /// Zero: a point on it has y = 0 exactly, and that is what `intersect` looks at.
     fn rounding(&self, _part: u32) -> f64 {
         0.0
@@ -56,6 +72,7 @@ mod tests {
         known.hits_obey_the_equation();
         known.crossings_match_sampling(&|p| p.y, true, |_| true);
         known.leaves_and_enters_once(false);
+        known.crossings_are_those_found_one_by_one();
     }
 
     #[test]

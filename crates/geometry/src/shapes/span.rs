@@ -51,11 +51,44 @@ impl Span {
         Span { enter, exit, enter_part, exit_part }
     }
 
+    /// Calls `visit` for the ends ahead of the origin, if the span is not empty; gives whether the ray starts inside.
+    pub(super) fn ends(self, visit: &mut dyn FnMut(Crossing)) -> bool {
+        let ahead = self.enter < self.exit && self.exit > 0.0;
+        if ahead && self.enter > 0.0 {
+            visit(Crossing { t: self.enter, part: self.enter_part });
+        }
+        if ahead && self.exit < f64::INFINITY {
+            visit(Crossing { t: self.exit, part: self.exit_part });
+        }
+        ahead && self.enter <= 0.0
+    }
+
     /// The first end ahead of the origin, if the span is not empty.
     #[inline]
     pub(super) fn first(self) -> Option<Crossing> {
         let (t, part) = if self.enter > 0.0 { (self.enter, self.enter_part) } else { (self.exit, self.exit_part) };
         (self.enter < self.exit && t > 0.0).then_some(Crossing { t, part })
+    }
+}
+
+/// Which of the two planes at `low` and `high` of one coordinate a ray stays within `width` of for all t in `range`, given
+/// its `origin` and `direction` in that coordinate: -1 or 1.
+#[inline]
+pub(super) fn plane_along(
+    origin: f64,
+    direction: f64,
+    (low, high): (f64, f64),
+    range: (f64, f64),
+    width: f64,
+) -> Option<f64> {
+    let (from, to) = (origin + range.0 * direction, origin + range.1 * direction);
+    let along = |level: f64| (from - level).abs() <= width && (to - level).abs() <= width;
+    if along(high) {
+        Some(1.0)
+    } else if along(low) {
+        Some(-1.0)
+    } else {
+        None
     }
 }
 

@@ -175,6 +175,46 @@ impl Known<'_> {
         found
     }
 
+    /// `crossings` finds the crossings that `intersect` finds one after the other, the first of them bit for bit, and
+    /// says rightly whether the ray starts inside. A ray that but touches may see two crossings or none.
+    pub(super) fn crossings_are_those_found_one_by_one(&self) {
+        let mut random = Random(6);
+        let mut compared = 0;
+        for i in 0..30_000 {
+            let mut ray = random.ray();
+            ray.direction = ray.direction.normalize();
+            if i % 10 == 0 {
+                ray.origin -= ray.direction * random.power(1.0, 4.0);
+            }
+            let mut all = Vec::new();
+            let starts_inside = self.shape.crossings(&ray, &mut |crossing| all.push(crossing));
+            all.sort_by(|a, b| a.t.total_cmp(&b.t));
+            let starts_on_it = self.depth(ray.origin).abs() < 1e-12;
+            if starts_on_it || self.hit(&ray).is_some_and(|hit| self.touches(&ray, hit)) {
+                continue;
+            }
+            assert_eq!(all.first().copied(), self.hit(&ray), "{ray:?}");
+            let one_by_one = self.all_crossings(&ray);
+            if all.iter().any(|&hit| self.touches(&ray, hit)) {
+                continue;
+            }
+            let tolerance = 1e-9 * (1.0 + ray.origin.length());
+            let same = all.iter().zip(&one_by_one).all(|(hit, t)| (hit.t - t).abs() < tolerance);
+            assert!(same && all.len() == one_by_one.len(), "{ray:?}: {all:?}, one by one {one_by_one:?}");
+            assert_eq!(starts_inside, self.shape.contains(ray.origin), "{ray:?}");
+            compared += all.len();
+        }
+        assert!(compared > 2_000, "the test must test something: {compared}");
+    }
+
+    /// True for a hit at so shallow an angle, or so near an edge, that rounding decides what is met there.
+    fn touches(&self, ray: &Ray, hit: Crossing) -> bool {
+        let p = ray.at(hit.t);
+        let (_, normal) = self.shape.surface(p, hit.part);
+        let on_parts = self.levels.iter().filter(|level| level(p).abs() < 1e-9).count();
+        normal.dot(ray.direction).abs() < 1e-4 || on_parts > 1 || at_a_tip(p)
+    }
+
     /// A ray that leaves a convex shape, however shallow its angle, does not hit it again; one that goes in comes out
     /// exactly once.
     pub(super) fn leaves_and_enters_once(&self, closed: bool) {
