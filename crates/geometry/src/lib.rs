@@ -17,5 +17,6 @@ pub use bvh::traverse::Work;
 pub use primitive::{Primitive, Surface};
 pub use ray::{Crossing, Ray};
 pub use shapes::mesh::{Mesh, MeshSource};
+pub use shapes::particles::Particles;
 pub use vantage::Vantage;
 pub use world::{Hit, World};
