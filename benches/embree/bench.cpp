@@ -246,7 +246,7 @@ static void measure(const char* kind, const char* way, const std::vector<Ray>& r
   std::sort(seconds.begin(), seconds.end());
   double rate = rays.size() / seconds[seconds.size() / 2] * 1e-6;
   print("rays", text("\"rays\": \"%s\", \"way\": \"%s\", \"count\": %zu, \"million_a_second\": %.6f, \"hits\": %zu, "
-                     "\"distances\": %.9g",
+                     "\"distances\": %.12g",
                      kind, way, rays.size(), rate, found.hits, found.distances));
 }
 

@@ -3,6 +3,7 @@
 //! The tree knows nothing of what it holds: leaves are ranges of items in an order that the builder chose.
 
 pub(crate) mod build;
+pub(crate) mod merge;
 pub(crate) mod traverse;
 
 use crate::simd::boxes::Boxes;

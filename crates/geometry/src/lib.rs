@@ -19,6 +19,7 @@ pub use packet::{LANES, Packet, PacketHits};
 pub use primitive::{Primitive, Surface};
 pub use ray::{Crossing, Ray};
 pub use shapes::mesh::{Mesh, MeshSource};
+pub use shapes::particles::Particles;
 pub use shapes::solid::{Operand, Operation};
 pub use vantage::Vantage;
 pub use world::{Hit, World};

@@ -2,8 +2,8 @@
 
 use crate::packet::{LANES, Packet, PacketHits};
 use crate::shapes::{
-    Shape, cone::Cone, cuboid::Cuboid, cylinder::Cylinder, disc::Disc, mesh::Mesh, plane::Plane, rectangle::Rectangle,
-    solid::Solid, sphere::Sphere, torus::Torus, triangle::Triangle,
+    Shape, cone::Cone, cuboid::Cuboid, cylinder::Cylinder, disc::Disc, mesh::Mesh, particles::Particles, plane::Plane,
+    rectangle::Rectangle, solid::Solid, sphere::Sphere, torus::Torus, triangle::Triangle,
 };
 use crate::{Bounds, Crossing, Ray, Work};
 use durer_math::{DAffine3, DMat3, DVec2, DVec3, rotation_between};
@@ -22,6 +22,7 @@ enum Kind {
     Triangle(Triangle),
     Torus(Torus),
     Mesh(Arc<Mesh>),
+    Particles(Arc<Particles>),
     Solid(Arc<Solid>),
 }
 
@@ -40,6 +41,10 @@ macro_rules! each_kind {
             Kind::Torus($shape) => $call,
             Kind::Mesh(mesh) => {
                 let $shape = &**mesh;
+                $call
+            }
+            Kind::Particles(particles) => {
+                let $shape = &**particles;
                 $call
             }
             Kind::Solid(solid) => {
@@ -159,6 +164,12 @@ impl Primitive {
         Primitive::place(Kind::Mesh(mesh), &(*world_from_object * DAffine3::from_translation(origin)))
     }
 
+    /// Particles. Those who share them share their tree.
+    pub fn particles(particles: Arc<Particles>, world_from_object: &DAffine3) -> Primitive {
+        let frame = DAffine3::from_translation(particles.origin());
+        Primitive::place(Kind::Particles(particles), &(*world_from_object * frame))
+    }
+
     fn place(kind: Kind, world_from_shape: &DAffine3) -> Primitive {
         let world = world_from_shape.matrix3;
         // One step of Newton's iteration: cofactors alone lose digits where a map stretches unevenly.
@@ -173,6 +184,7 @@ impl Primitive {
             | Kind::Triangle(_)
             | Kind::Torus(_)
             | Kind::Mesh(_)
+            | Kind::Particles(_)
             | Kind::Solid(_) => None,
         };
         Primitive {
@@ -211,8 +223,14 @@ impl Primitive {
             | Kind::Triangle(_)
             | Kind::Torus(_)
             | Kind::Mesh(_)
+            | Kind::Particles(_)
             | Kind::Solid(_) => None,
         }
+    }
+
+    /// For particles, the number of the one that a part belongs to.
+    pub fn particle_of(&self, part: u32) -> Option<u32> {
+        if let Kind::Particles(particles) = &self.kind { Some(particles.particle_of(part)) } else { None }
     }
 
     /// The nearest crossing with 0 < t < `t_max`.
@@ -302,7 +320,7 @@ impl Primitive {
             | Kind::Rectangle(_)
             | Kind::Triangle(_)
             | Kind::Torus(_) => 4,
-            Kind::Mesh(_) | Kind::Solid(_) => MOST_CROSSINGS,
+            Kind::Mesh(_) | Kind::Particles(_) | Kind::Solid(_) => MOST_CROSSINGS,
         }
     }
 

@@ -9,6 +9,7 @@ pub(crate) mod cuboid;
 pub(crate) mod cylinder;
 pub(crate) mod disc;
 pub(crate) mod mesh;
+pub(crate) mod particles;
 pub(crate) mod plane;
 pub(crate) mod rectangle;
 pub(crate) mod solid;

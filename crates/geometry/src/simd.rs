@@ -4,6 +4,10 @@
 //! Fused multiply-add is never used, so all sets give the same bits.
 
 pub(crate) mod bins;
+pub(crate) mod blocks;
 pub(crate) mod boxes;
+pub(crate) mod capsules;
+pub(crate) mod frusta;
 pub(crate) mod planes;
+pub(crate) mod spheres;
 pub(crate) mod triangles;

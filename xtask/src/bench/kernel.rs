@@ -45,17 +45,19 @@ pub(crate) fn run(options: &Options<'_>) -> Result<(), String> {
 /// What is run in turn for one scene.
 fn commands(programs: &Programs, scene: &str) -> Vec<Command> {
     let durer = command(&programs.durer, &[scene, REPEATS]);
-    let crates = |name: &str, repeats: &str| command(&programs.crates, &[name, scene, repeats]);
     let embree = programs.embree.iter().flat_map(|path| embree(path, scene));
-    let others = [crates("obvhs-medium", REPEATS), crates("bvh", REPEATS)];
-    // Other qualities for the times that building takes.
-    let builds = [crates("obvhs-fast", BUILD_ONLY), crates("obvhs-very-slow", BUILD_ONLY)];
-    [durer].into_iter().chain(embree).chain(others).chain(builds).collect()
+    let crates = [
+        ["obvhs-fast", scene, BUILD_ONLY],
+        ["obvhs-medium", scene, REPEATS],
+        ["obvhs-very-slow", scene, BUILD_ONLY],
+        ["bvh", scene, REPEATS],
+    ];
+    [durer].into_iter().chain(embree).chain(crates.map(|words| command(&programs.crates, &words))).collect()
 }
 
 fn embree(path: &Path, scene: &str) -> Vec<Command> {
     let of = |scene: &str| {
-        let qualities = [("medium", REPEATS), ("high", REPEATS), ("low", BUILD_ONLY)];
+        let qualities = [("low", BUILD_ONLY), ("medium", REPEATS), ("high", REPEATS)];
         qualities.map(|(quality, repeats)| command(path, &[scene, repeats, quality]))
     };
     let user = (scene == "spheres").then_some("user-spheres");

@@ -1,7 +1,7 @@
 //! The report of `cargo xtask bench kernel`.
 
 use super::build::{self, Programs};
-use super::lines::{Lines, Who};
+use super::lines::{Found, Lines, Who};
 use crate::bench::report::place;
 use std::fmt::Write;
 
@@ -79,7 +79,8 @@ fn about(rounds: usize) -> String {
          to the bit: a million triangles as hills, as a cave and at random in a cube, and a million balls. Secondary rays start\n\
          where a program's own primary rays hit. Packets are eight rays: in Embree with its flag for coherent rays, for shadows\n\
          with or without it, whichever is faster; balls are Embree's own points or geometry of the user's, whichever is faster.\n\
-         durer computes in double precision, the others in single. The crates are built for this very processor.\n"
+         durer computes in double precision, the others in single. The crates are built for this very processor; durer and Embree\n\
+         find out what it can do. Ratios above 1: durer is faster.\n"
     )
 }
 
@@ -129,20 +130,22 @@ fn findings(lines: &Lines, scenes: &[&str], has_embree: bool) -> String {
                 lines.found(kind, |who, way| column.is_of(who, scene) && way.starts_with("packets") == in_packets)
             };
             let Some(base) = found(reference) else { continue };
-            let difference = |column: &Column| match found(column) {
-                None => "–".to_owned(),
-                Some(found) => {
-                    let by = |value: u64, base: u64| value as i64 - base as i64;
-                    let distance = found.distances - base.distances;
-                    format!("{:+} / {:+} / {distance:+.4}", by(found.count, base.count), by(found.hits, base.hits))
-                }
-            };
+            let difference =
+                |column: &Column| found(column).map_or_else(|| "–".to_owned(), |found| differing(found, base));
             let cells: Vec<String> = others.iter().map(difference).collect();
-            let base = format!("{} / {} / {:.4}", base.count, base.hits, base.distances);
+            let distances = if base.distances > 0.0 { format!(" / {:.4}", base.distances) } else { String::new() };
+            let base = format!("{} / {}{distances}", base.count, base.hits);
             let _ = writeln!(text, "| {scene} | {name} | {base} | {} |", cells.join(" | "));
         }
     }
     text
+}
+
+/// By how much something that was found differs. Rays that ask only whether there is a hit have no distances.
+fn differing(found: Found, base: Found) -> String {
+    let by = |value: u64, base: u64| value as i64 - base as i64;
+    let counts = format!("{:+} / {:+}", by(found.count, base.count), by(found.hits, base.hits));
+    if base.distances > 0.0 { format!("{counts} / {:+.4}", found.distances - base.distances) } else { counts }
 }
 
 fn builds(lines: &Lines, scenes: &[&str]) -> String {

@@ -1,0 +1,40 @@
+//! What frusta and capsules have in common: an axis between two points.
+
+use durer_math::{DVec3, rotation_between};
+
+/// The way from one point to another.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Axis {
+    pub(super) base: DVec3,
+    pub(super) top: DVec3,
+}
+
+impl Axis {
+    /// How long it is.
+    pub(super) fn length(&self) -> f64 {
+        (self.top - self.base).length()
+    }
+
+    /// From base to top, of unit length; some direction if they are the same point.
+    pub(super) fn up(&self) -> DVec3 {
+        let length = self.length();
+        if length > 0.0 { (self.top - self.base) / length } else { DVec3::Y }
+    }
+
+    /// How far a point is above the base, and the way from the axis to it.
+    pub(super) fn split(&self, point: DVec3) -> (f64, DVec3) {
+        let (up, from_base) = (self.up(), point - self.base);
+        let height = from_base.dot(up);
+        (height, from_base - up * height)
+    }
+
+    /// A point as seen from the base, turned so that the axis is +y: as single cones turn it.
+    pub(super) fn upright(&self, point: DVec3) -> DVec3 {
+        rotation_between(DVec3::Y, self.up()).transpose() * (point - self.base)
+    }
+
+    /// The largest coordinate of either end.
+    pub(super) fn largest(&self) -> f64 {
+        self.base.abs().max(self.top.abs()).max_element()
+    }
+}
