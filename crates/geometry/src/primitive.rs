@@ -170,6 +170,12 @@ impl Primitive {
         Primitive::place(Kind::Particles(particles), &(*world_from_object * frame))
     }
 
+    /// The same thing in the space of an object, placed in the world.
+    pub fn placed(&self, world_from_object: &DAffine3) -> Primitive {
+        let object_from_shape = DAffine3 { matrix3: self.world_from_shape, translation: self.origin };
+        Primitive { mask: self.mask, ..Primitive::place(self.kind.clone(), &(*world_from_object * object_from_shape)) }
+    }
+
     fn place(kind: Kind, world_from_shape: &DAffine3) -> Primitive {
         let world = world_from_shape.matrix3;
         // One step of Newton's iteration: cofactors alone lose digits where a map stretches unevenly.

@@ -3,7 +3,9 @@
 mod contents;
 mod imports;
 mod looks;
+mod particles;
 mod shapes;
+mod solids;
 mod tree;
 
 use crate::camera::Camera;

@@ -135,7 +135,10 @@ impl Textured<'_> {
                 let weighed = corners.into_iter().zip(weights).map(|(color, weight)| color * weight as f32);
                 Some(weighed.fold(Rgb::BLACK, |sum, color| sum + color))
             }
-            Colors::Particles(colors) => colors.get(part).copied(),
+            Colors::Particles(colors) => {
+                let primitive = &self.scene.world.primitives()[self.hit.primitive as usize];
+                colors.get(primitive.particle_of(self.hit.crossing.part)? as usize).copied()
+            }
         }
     }
 

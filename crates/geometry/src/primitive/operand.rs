@@ -51,6 +51,14 @@ impl Primitive {
         }
     }
 
+    /// For a solid, the first part of each leaf; for other shapes that of the whole.
+    pub fn leaf_starts(&self) -> Vec<u32> {
+        match &self.kind {
+            Kind::Solid(solid) => solid.leaf_starts().collect(),
+            _ => vec![0],
+        }
+    }
+
     /// Calls `visit` for every crossing of a closed shape with t > 0, in any order; gives whether the ray starts inside.
     /// In the order of t each leads from inside to outside or back.
     pub fn crossings(&self, ray: &Ray, visit: &mut dyn FnMut(Crossing)) -> bool {

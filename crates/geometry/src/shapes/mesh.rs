@@ -141,6 +141,33 @@ impl Mesh {
         best.hit().map(|hit| hit.crossing)
     }
 
+    /// All triangles that the ray meets, in any order.
+    #[inline(always)]
+    fn all<S: Simd>(&self, simd: S, ray: &Ray, met: &mut Vec<Crossing>) {
+        let triangle_ray = TriangleRay::new(simd, ray);
+        self.bvh.any(
+            simd,
+            &BoxRay::new(ray),
+            f64::INFINITY,
+            #[inline(always)]
+            |blocks| {
+                for block in &self.blocks[blocks] {
+                    let (mut hits, t) = triangle_ray.hits(simd, block, f64::INFINITY);
+                    while hits != 0 {
+                        let slot = hits.trailing_zeros() as usize & 3;
+                        hits &= hits - 1;
+                        let crossing = Crossing { t: t[slot], part: block.ids[slot] };
+                        // Unused slots repeat the first.
+                        if slot < block.count() {
+                            met.push(crossing);
+                        }
+                    }
+                }
+                false
+            },
+        );
+    }
+
     #[inline(always)]
     fn any<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64) -> bool {
         let triangle_ray = TriangleRay::new(simd, ray);
@@ -322,6 +349,31 @@ impl Shape for Mesh {
 
     fn rounding(&self, part: u32) -> f64 {
         self.triangle(part).rounding(0)
+    }
+
+    fn part_count(&self) -> u32 {
+        self.source.triangles().len() as u32
+    }
+
+    /// On an edge a ray meets two triangles in the same place; only what changes sides is a crossing.
+    fn crossings(&self, ray: &Ray, visit: &mut dyn FnMut(Crossing)) -> bool {
+        let mut met = Vec::new();
+        if self.is_closed() {
+            dispatch!(self.level, simd => self.all(simd, ray, &mut met));
+        }
+        met.sort_by(|a: &Crossing, b: &Crossing| a.t.total_cmp(&b.t).then(a.part.cmp(&b.part)));
+        let leaves = |crossing: &Crossing| {
+            self.triangle(crossing.part).surface(ray.at(crossing.t), 0).1.dot(ray.direction) > 0.0
+        };
+        let starts_inside = met.first().is_some_and(leaves);
+        let mut inside = starts_inside;
+        for crossing in met {
+            if leaves(&crossing) == inside {
+                visit(crossing);
+                inside = !inside;
+            }
+        }
+        starts_inside
     }
 }
 

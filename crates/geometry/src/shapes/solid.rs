@@ -80,6 +80,11 @@ impl Solid {
         self.leaves.partition_point(|leaf| leaf.first_part <= part).saturating_sub(1)
     }
 
+    /// The first part of each leaf.
+    pub(crate) fn leaf_starts(&self) -> impl Iterator<Item = u32> {
+        self.leaves.iter().map(|leaf| leaf.first_part)
+    }
+
     /// The leaf that a part belongs to, and which of its own parts it is.
     fn leaf_and_part(&self, part: u32) -> (&Leaf, u32) {
         let leaf = &self.leaves[self.leaf_of(part)];

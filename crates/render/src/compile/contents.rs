@@ -1,10 +1,10 @@
 //! What objects are made of, made once for all that share it.
 
 use super::looks::Colors;
-use super::shapes;
+use super::{particles, shapes, solids};
 use durer_geometry::{Mesh, MeshSource, Primitive};
 use durer_math::DAffine3;
-use durer_scene::{MeshData, Object, ObjectKind, Shape};
+use durer_scene::{MeshData, Object, ObjectKind, Particles, Shape, Solid};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -21,6 +21,9 @@ pub(super) struct Contents {
 pub(super) enum Content<'s> {
     Shape(&'s Shape),
     Mesh(Arc<Mesh>, &'s Arc<MeshData>),
+    Particles(Arc<durer_geometry::Particles>, &'s Particles),
+    /// Built in its object's space.
+    Solid(Box<Primitive>, &'s Solid),
 }
 
 /// A scene's mesh as geometry reads it, without a copy.
@@ -67,7 +70,9 @@ impl Contents {
                 let index = *self.indices.get(&address(&mesh.data))?;
                 Some(Content::Mesh(self.meshes[index].clone(), &mesh.data))
             }
-            ObjectKind::Particles(_) | ObjectKind::Solid(_) => None,
+            ObjectKind::Particles(particles) => (!particles.kind.is_empty())
+                .then(|| Content::Particles(Arc::new(particles::build(particles)), particles)),
+            ObjectKind::Solid(solid) => Some(Content::Solid(Box::new(solids::build(solid, self)), solid)),
             ObjectKind::Group(_) | ObjectKind::Instances(_) | ObjectKind::Import(_) => None,
         }
     }
@@ -79,6 +84,8 @@ impl Content<'_> {
         match self {
             Content::Shape(shape) => shapes::place(shape, world),
             Content::Mesh(mesh, data) => Primitive::mesh(mesh.clone(), data.origin, world),
+            Content::Particles(particles, _) => Primitive::particles(particles.clone(), world),
+            Content::Solid(solid, _) => solid.placed(world),
         }
     }
 
@@ -87,13 +94,15 @@ impl Content<'_> {
         match self {
             Content::Shape(shape) => shape.is_closed(),
             Content::Mesh(mesh, _) => mesh.is_closed(),
+            Content::Particles(_, particles) => particles::are_closed(particles),
+            Content::Solid(..) => true,
         }
     }
 
     /// True if shading has normals of its own.
     pub(super) fn is_smooth(&self) -> bool {
         match self {
-            Content::Shape(_) => false,
+            Content::Shape(_) | Content::Particles(..) | Content::Solid(..) => false,
             Content::Mesh(_, data) => !data.normals.is_empty(),
         }
     }
@@ -102,7 +111,8 @@ impl Content<'_> {
     pub(super) fn colors(&self) -> Colors {
         match self {
             Content::Mesh(_, data) if !data.colors.is_empty() => Colors::Vertices(Arc::clone(data)),
-            Content::Shape(_) | Content::Mesh(..) => Colors::None,
+            Content::Particles(_, Particles { colors: Some(colors), .. }) => Colors::Particles(colors.values.clone()),
+            Content::Shape(_) | Content::Mesh(..) | Content::Particles(..) | Content::Solid(..) => Colors::None,
         }
     }
 
@@ -110,7 +120,7 @@ impl Content<'_> {
     pub(super) fn mesh_data(&self) -> Option<&MeshData> {
         match self {
             Content::Mesh(_, data) => Some(data),
-            Content::Shape(_) => None,
+            Content::Shape(_) | Content::Particles(..) | Content::Solid(..) => None,
         }
     }
 }

@@ -95,6 +95,12 @@ impl Looks {
         }
     }
 
+    /// With a material for each run of parts, and one that it is filled with.
+    pub(super) fn of_solid(inside: u32, runs: &[(u32, u32)], materials: &[Material]) -> Looks {
+        let is_medium = materials[inside as usize].fills_with_medium();
+        Looks { material: inside, is_medium, ..Looks::of_runs(runs, materials, || true) }
+    }
+
     /// The index of its details, if it has any.
     #[inline]
     pub(crate) fn details(&self) -> Option<u32> {
@@ -120,8 +126,7 @@ impl Looks {
 
 impl Details {
     pub(super) fn new(runs: &[(u32, u32)], colors: Colors) -> Details {
-        let runs = if runs.len() > 1 { runs.to_vec() } else { Vec::new() };
-        Details { runs, colors }
+        Details { runs: runs.to_vec(), colors }
     }
 
     /// The material of a part, if parts have materials of their own.

@@ -7,6 +7,7 @@
 
 use super::contents::{Content, Contents};
 use super::looks::{Colors, Details, Looks, PlacedObject, runs};
+use super::solids;
 use crate::materials::Material;
 use durer_geometry::Primitive;
 use durer_math::{DAffine3, DVec3};
@@ -133,21 +134,27 @@ impl<'s> Tree<'s> {
     }
 
     fn leaf(&mut self, content: Content<'s>, own: Option<u32>, around: Around) -> Leaf<'s> {
-        let runs = match content.mesh_data() {
-            Some(data) => runs(data, own, around.material),
-            None => vec![(0, own.unwrap_or(around.material))],
+        let material = own.unwrap_or(around.material);
+        let runs = match (&content, content.mesh_data()) {
+            (Content::Solid(placed, solid), _) => solids::runs(solid, placed, material),
+            (_, Some(data)) => runs(data, own, around.material),
+            (_, None) => vec![(0, material)],
         };
-        let looks = match runs[..] {
-            [(_, material)] => Looks::plain(material, self.materials, || content.is_closed()),
-            _ => Looks::of_runs(&runs, self.materials, || content.is_closed()),
+        let looks = match (&content, &runs[..]) {
+            // What is inside is the solid's own, if that is said.
+            (Content::Solid(..), runs) => Looks::of_solid(own.unwrap_or(runs[0].1), runs, self.materials),
+            (_, &[(_, material)]) => Looks::plain(material, self.materials, || content.is_closed()),
+            (_, runs) => Looks::of_runs(runs, self.materials, || content.is_closed()),
         };
         let colors = content.colors();
-        let has_details = runs.len() > 1 || content.is_smooth() || !matches!(colors, Colors::None);
-        let details = has_details.then(|| self.add(Details::new(&runs, colors.clone())));
-        let details_without_materials = match runs.len() {
-            1 => details,
-            _ if around.copies_have_materials => Some(self.add(Details::new(&[], colors))),
-            _ => None,
+        let several = runs.len() > 1 || runs[0].1 != looks.material;
+        let runs = if several { &runs[..] } else { &[] };
+        let has_details = several || content.is_smooth() || !matches!(colors, Colors::None);
+        let details = has_details.then(|| self.add(Details::new(runs, colors.clone())));
+        let details_without_materials = match several {
+            false => details,
+            true if around.copies_have_materials => Some(self.add(Details::new(&[], colors))),
+            true => None,
         };
         Leaf { content, looks: looks.with_details(details), details_without_materials }
     }

@@ -33,7 +33,7 @@ pub(super) fn draw(panels: &[Panel; 2]) -> String {
     let (width, height) = (2.0 * ROOM.0, ROOM.1);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
-         font-family=\"sans-serif\" font-size=\"12\" fill=\"#808080\">\n"
+         font-family=\"sans-serif\" font-size=\"12\" fill=\"#808080\" stroke=\"none\">\n"
     );
     for (index, panel) in panels.iter().enumerate() {
         let _ = writeln!(svg, "<g transform=\"translate({} 0)\">", ROOM.0 * index as f64);
@@ -98,12 +98,22 @@ fn line(from: (f64, f64), to: (f64, f64)) -> String {
     )
 }
 
-/// A power of ten, as 10 with a small number above.
+/// A power of ten.
 fn label((x, y): (f64, f64), anchor: &str, power: f64) -> String {
-    let exponent = format!("{power:.0}").replace('-', "−");
-    format!(
-        "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">10<tspan dy=\"-5\" font-size=\"9\">{exponent}</tspan></text>\n"
-    )
+    format!("<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">10{}</text>\n", raised(power))
+}
+
+/// A whole number as an exponent.
+fn raised(number: f64) -> String {
+    let of = |character| match character {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        digit @ '4'..='9' => char::from_u32('⁴' as u32 + digit as u32 - '4' as u32).unwrap_or(digit),
+        _ => '⁰',
+    };
+    format!("{number:.0}").chars().map(of).collect()
 }
 
 /// An axis from one power of ten to another.
@@ -151,6 +161,11 @@ mod tests {
         assert!((axis.share(3.5) - 0.5).abs() < 1e-12);
         let axis = Axis::around([998.0, 1001.0].into_iter());
         assert_eq!((axis.from, axis.to), (3.0, 4.0));
+    }
+
+    #[test]
+    fn exponents_are_raised() {
+        assert_eq!([-4.0, 0.0, 9.0, 13.0].map(raised), ["⁻⁴", "⁰", "⁹", "¹³"]);
     }
 
     #[test]
