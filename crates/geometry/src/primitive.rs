@@ -234,6 +234,16 @@ impl Primitive {
         }
     }
 
+    /// Bytes that it shares with others: those of a mesh, of particles or of a solid.
+    pub fn shared_memory(&self) -> usize {
+        match &self.kind {
+            Kind::Mesh(mesh) => mesh.memory(),
+            Kind::Particles(particles) => particles.memory(),
+            Kind::Solid(solid) => solid.memory(),
+            _ => 0,
+        }
+    }
+
     /// For particles, the number of the one that a part belongs to.
     pub fn particle_of(&self, part: u32) -> Option<u32> {
         if let Kind::Particles(particles) = &self.kind { Some(particles.particle_of(part)) } else { None }
@@ -365,17 +375,32 @@ impl Primitive {
     /// The unit normal that shading is to use at a point of the surface, in the world, if it is not the surface's own:
     /// interpolated between the vertices of a mesh. It may point to either side.
     pub fn shading_normal(&self, point: DVec3, part: u32) -> Option<DVec3> {
-        let Kind::Mesh(mesh) = &self.kind else { return None };
-        let normal = mesh.shading_normal(self.in_shape(point), part)?;
+        let point = self.in_shape(point);
+        let normal = match &self.kind {
+            Kind::Mesh(mesh) => mesh.shading_normal(point, part)?,
+            Kind::Solid(solid) => {
+                let (shape, part) = solid.shape_of(part);
+                shape.shading_normal(point, part)?
+            }
+            _ => return None,
+        };
         let normal = self.shape_from_world.transpose() * normal;
         // Opposite normals may cancel out.
         normal.try_normalize()
     }
 
-    /// The weights of a triangle's three vertices at a point of it, if it is a mesh.
+    /// The weights of a triangle's three vertices at a point of it, if it is a mesh, or a solid that has the triangle from
+    /// one.
     pub fn vertex_weights(&self, point: DVec3, part: u32) -> Option<[f64; 3]> {
-        let Kind::Mesh(mesh) = &self.kind else { return None };
-        Some(mesh.weights(self.in_shape(point), part))
+        let point = self.in_shape(point);
+        match &self.kind {
+            Kind::Mesh(mesh) => Some(mesh.weights(point, part)),
+            Kind::Solid(solid) => {
+                let (shape, part) = solid.shape_of(part);
+                shape.vertex_weights(point, part)
+            }
+            _ => None,
+        }
     }
 
     /// True for a point inside; always false for what has no inside.

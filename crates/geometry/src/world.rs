@@ -389,6 +389,11 @@ impl World {
         self.primitives[hit.primitive as usize].vertex_weights(point, hit.crossing.part)
     }
 
+    /// The number of the particle that was hit, if these are particles.
+    pub fn particle_of(&self, hit: &Hit) -> Option<u32> {
+        self.primitives[hit.primitive as usize].particle_of(hit.crossing.part)
+    }
+
     /// Texture coordinates at a point on the surface that was hit.
     pub fn uv(&self, point: DVec3, hit: &Hit) -> DVec2 {
         self.primitives[hit.primitive as usize].uv(point, hit.crossing.part)

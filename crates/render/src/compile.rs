@@ -14,16 +14,15 @@ use crate::lights::Light;
 use crate::materials::Material;
 use crate::textures::Textures;
 use contents::Contents;
-use durer_geometry::{Bounds, Hit, Mesh, Primitive, Vantage, World};
+use durer_geometry::{Bounds, Hit, Primitive, Vantage, World};
 use durer_math::Rgb;
 use durer_scene::{Background, CheckedScene, Picture, RenderSettings, Scene};
 use imports::Brought;
-use looks::{Details, Looks};
+use looks::Looks;
 use rayon::prelude::*;
-use std::sync::Arc;
 use tree::Tree;
 
-pub(crate) use looks::{CLEAR, Colors, OPAQUE, PlacedObject};
+pub(crate) use looks::{CLEAR, Colors, Details, OPAQUE, PlacedObject};
 
 /// A scene ready for rays. Immutable; threads share it.
 #[derive(Debug)]
@@ -33,8 +32,8 @@ pub struct CompiledScene {
     pub(crate) objects: Vec<PlacedObject>,
     /// What differs within primitives.
     details: Vec<Details>,
-    /// All meshes, whose lists and trees instances share.
-    meshes: Vec<Arc<Mesh>>,
+    /// Bytes of what instances share.
+    shared: GeometryMemory,
     /// The scene's, and after them the default material.
     pub(crate) materials: Vec<Material>,
     pub(crate) textures: Textures,
@@ -67,12 +66,18 @@ pub struct GeometryMemory {
     pub meshes: usize,
     /// Triangles of meshes.
     pub triangles: usize,
+    /// Of particles and the trees over them.
+    pub particles: usize,
+    /// Number of particles.
+    pub particle_count: usize,
+    /// Of solids: what they are made of, without meshes.
+    pub solids: usize,
 }
 
 impl GeometryMemory {
     /// All of it.
     pub fn total(&self) -> usize {
-        self.shapes + self.meshes
+        self.shapes + self.meshes + self.particles + self.solids
     }
 }
 
@@ -85,6 +90,8 @@ pub fn compile(scene: &CheckedScene) -> CompiledScene {
     let tree = Tree::new(&scene.objects, &contents, &materials);
     let (mut primitives, mut objects): (Vec<Primitive>, Vec<PlacedObject>) = (Vec::new(), Vec::new());
     (0..tree.len()).into_par_iter().map(|index| tree.place(index)).unzip_into_vecs(&mut primitives, &mut objects);
+    let mut shared = contents.memory();
+    tree.add_memory(&mut shared);
     let details = tree.details;
     let world = World::build(primitives);
     let brought = Brought::by(&scene.objects);
@@ -104,7 +111,7 @@ pub fn compile(scene: &CheckedScene) -> CompiledScene {
         world,
         objects,
         details,
-        meshes: contents.meshes,
+        shared,
         textures: Textures::compile(scene),
         materials,
         background: scene.background,
@@ -153,11 +160,8 @@ impl CompiledScene {
         let placed = |object: &PlacedObject| {
             size_of::<PlacedObject>() + object.object_from_world.as_deref().map_or(0, size_of_val)
         };
-        GeometryMemory {
-            shapes: self.world.memory() + self.objects.iter().map(placed).sum::<usize>(),
-            meshes: self.meshes.iter().map(|mesh| mesh.memory()).sum(),
-            triangles: self.meshes.iter().map(|mesh| mesh.source().triangles().len()).sum(),
-        }
+        let shapes = self.world.memory() + self.objects.iter().map(placed).sum::<usize>();
+        GeometryMemory { shapes, ..self.shared }
     }
 
     /// The material of a primitive, or of what it is filled with.
@@ -169,15 +173,14 @@ impl CompiledScene {
     /// The index of the material at a hit.
     #[inline]
     pub(crate) fn material_at(&self, hit: &Hit) -> u32 {
-        let looks = &self.objects[hit.primitive as usize].looks;
-        let of_part = |details: u32| self.details[details as usize].material(hit.crossing.part);
-        looks.details().and_then(of_part).unwrap_or(looks.material)
+        let of_part = self.details(hit.primitive).and_then(|details| details.material(hit.crossing.part));
+        of_part.unwrap_or(self.objects[hit.primitive as usize].looks.material)
     }
 
-    /// The colours of a primitive's own.
+    /// What differs within a primitive, if anything does.
     #[inline]
-    pub(crate) fn colors(&self, details: u32) -> &Colors {
-        &self.details[details as usize].colors
+    pub(crate) fn details(&self, primitive: u32) -> Option<&Details> {
+        Some(&self.details[self.objects[primitive as usize].looks.details()? as usize])
     }
 
     /// Number of shapes; every copy counts.

@@ -101,7 +101,8 @@ pub struct HoleExplanation {
 /// One of the things that a shape consists of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Element {
-    /// One of the surfaces of an exact shape: a face of a box, the side or a cap of a cylinder. Their order is the shape's own.
+    /// One of the surfaces of an exact shape: a face of a box, the side or a cap of a cylinder. Their order is the
+    /// shape's own.
     Face(u32),
     /// A triangle of a mesh.
     Triangle {
@@ -109,6 +110,16 @@ pub enum Element {
         index: u32,
         /// The weights of its three vertices at the point that was hit.
         weights: [f64; 3],
+    },
+    /// A particle.
+    Particle {
+        /// Counted from 0.
+        index: u32,
+    },
+    /// One of the shapes that a solid is made of.
+    Operand {
+        /// Counted from 0, depth first.
+        index: usize,
     },
 }
 
@@ -245,10 +256,15 @@ impl Observer for Recorder<'_> {
 impl Recorder<'_> {
     /// What was hit of a shape.
     fn element(&self, hit: &Hit, surface: &Surface) -> Element {
-        let index = hit.crossing.part;
-        match self.scene.world.vertex_weights(surface.point, hit) {
-            Some(weights) => Element::Triangle { index, weights },
-            None => Element::Face(index),
+        let (world, part) = (&self.scene.world, hit.crossing.part);
+        if let Some(details) = self.scene.details(hit.primitive).filter(|details| details.is_solid()) {
+            Element::Operand { index: details.origin(part).0 }
+        } else if let Some(weights) = world.vertex_weights(surface.point, hit) {
+            Element::Triangle { index: part, weights }
+        } else if let Some(index) = world.particle_of(hit) {
+            Element::Particle { index }
+        } else {
+            Element::Face(part)
         }
     }
 

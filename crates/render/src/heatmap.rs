@@ -1,8 +1,9 @@
 //! What it takes to find what the eye sees: for each pixel, how much of the search structures one ray of the eye goes
 //! through.
 //!
-//! The ray is that of a picture without anti-aliasing, and the search the usual one through the trees, of which every step is
-//! counted. (In small scenes rendering has a shorter way for the eye's rays, which is left out here.)
+//! The ray is that of a picture without anti-aliasing, and the search the usual one of a single ray through the trees, of
+//! which every step is counted. (Rendering has shorter ways for the eye's rays, in small scenes and for neighbors that go
+//! together, which are left out here.)
 
 use crate::antialias::{Antialias, Sample, Samples, grid::Grid};
 use crate::compile::CompiledScene;

@@ -1,6 +1,6 @@
 //! A hit, with all that shading needs to know about it.
 
-use crate::compile::{Colors, CompiledScene, PlacedObject};
+use crate::compile::{Colors, CompiledScene, Details, PlacedObject};
 use crate::materials::{Material, Side, on_side, reflect};
 use crate::textures::TexturePoint;
 use durer_geometry::{Hit, Ray, Surface};
@@ -36,14 +36,15 @@ impl<'a> Shading<'a> {
         let surface = scene.world.surface(ray, hit);
         let object = &scene.objects[hit.primitive as usize];
         let material = &scene.materials[scene.material_at(hit) as usize];
-        let textured = Textured { scene, object, surface: &surface, hit };
+        let details = scene.details(hit.primitive);
+        let textured = Textured { scene, object, details, surface: &surface, hit };
         let from_outside = ray.direction.dot(surface.normal) < 0.0;
         let face = if from_outside { surface.normal } else { -surface.normal };
         let (primitive, direction) = (hit.primitive, ray.direction);
-        let (color, normal) = match object.looks.details() {
+        let (color, normal) = match details {
             None => (scene.textures.color(material.color, &textured), face),
             Some(details) => {
-                let color = textured.color(material.color, scene.colors(details));
+                let color = textured.color(material.color, details);
                 (color, normal_for_shading(scene, &surface, hit, face, direction))
             }
         };
@@ -102,43 +103,43 @@ fn normal_for_shading(scene: &CompiledScene, surface: &Surface, hit: &Hit, face:
 
 /// How much of the surface is there at a hit.
 pub(crate) fn opacity_at(scene: &CompiledScene, hit: &Hit, surface: &Surface) -> Rgb {
-    let object = &scene.objects[hit.primitive as usize];
+    let (object, details) = (&scene.objects[hit.primitive as usize], scene.details(hit.primitive));
     let material = &scene.materials[scene.material_at(hit) as usize];
-    Textured { scene, object, surface, hit }.opacity(material)
+    Textured { scene, object, details, surface, hit }.opacity(material)
 }
 
 /// A hit as textures see it.
 struct Textured<'a> {
     scene: &'a CompiledScene,
     object: &'a PlacedObject,
+    details: Option<&'a Details>,
     surface: &'a Surface,
     hit: &'a Hit,
 }
 
 impl Textured<'_> {
     /// Colours of the surface's own take the place of a plain colour, and multiply a texture's.
-    fn color(&self, paint: Paint, colors: &Colors) -> Rgb {
-        match (self.own_color(colors), paint) {
+    fn color(&self, paint: Paint, details: &Details) -> Rgb {
+        match (self.own_color(details), paint) {
             (None, _) => self.scene.textures.color(paint, self),
             (Some(own), Paint::Color(_)) => own,
             (Some(own), Paint::Texture(_)) => own * self.scene.textures.color(paint, self),
         }
     }
 
-    fn own_color(&self, colors: &Colors) -> Option<Rgb> {
-        let part = self.hit.crossing.part as usize;
-        match colors {
+    fn own_color(&self, details: &Details) -> Option<Rgb> {
+        let part = self.hit.crossing.part;
+        let (_, origin) = details.origin(part);
+        match &origin.colors {
             Colors::None => None,
             Colors::Vertices(data) => {
                 let weights = self.scene.world.vertex_weights(self.surface.point, self.hit)?;
-                let corners = data.triangles[part].map(|vertex| data.colors[vertex as usize]);
+                let corners =
+                    data.triangles[(part - origin.first_part) as usize].map(|vertex| data.colors[vertex as usize]);
                 let weighed = corners.into_iter().zip(weights).map(|(color, weight)| color * weight as f32);
                 Some(weighed.fold(Rgb::BLACK, |sum, color| sum + color))
             }
-            Colors::Particles(colors) => {
-                let primitive = &self.scene.world.primitives()[self.hit.primitive as usize];
-                colors.get(primitive.particle_of(self.hit.crossing.part)? as usize).copied()
-            }
+            Colors::Particles(colors) => colors.get(self.scene.world.particle_of(self.hit)? as usize).copied(),
         }
     }
 
@@ -156,9 +157,14 @@ impl Textured<'_> {
 
 impl TexturePoint for Textured<'_> {
     fn point(&self) -> DVec3 {
-        match &self.object.object_from_world {
+        let point = match &self.object.object_from_world {
             Some(map) => map.transform_point3(self.surface.point),
             None => self.surface.point,
+        };
+        let operand = self.details.map(|details| details.origin(self.hit.crossing.part).1);
+        match operand.and_then(|operand| operand.operand_from_solid.as_ref()) {
+            Some(map) => map.transform_point3(point),
+            None => point,
         }
     }
 

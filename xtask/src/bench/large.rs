@@ -12,7 +12,7 @@ use super::options::Options;
 use super::programs::{self, Case, TACHYON};
 use super::report::{self, Row};
 use crate::shell;
-use ::durer::imaging::{DecodeLimits, Transfer, compare};
+use ::durer::imaging::{DecodeLimits, Difference, Image, Transfer, compare};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -95,12 +95,17 @@ fn differences(count: usize, folder: &Path) -> Result<String, String> {
     let (csv, npy) = (read("csv", Transfer::Srgb)?, read("npy", Transfer::Srgb)?);
     // Tachyon writes linear numbers.
     let (povray, tachyon) = (read("povray", Transfer::Srgb)?, read("tachyon", Transfer::Linear)?);
-    let cells = [&povray, &tachyon, &npy].map(|other| {
-        let difference = compare(&csv, other).map_err(|error| error.to_string())?;
-        Ok::<_, String>(format!("{:.6} | {:.3} %", difference.mean, difference.differing_share * 100.0))
-    });
-    let [povray, tachyon, npy] = cells;
-    Ok(format!("| {count} | {} | {} | {} |\n", povray?, tachyon?, npy?))
+    let difference = |other: &Image| compare(&csv, other).map_err(|error| error.to_string());
+    let (povray, tachyon, npy) = (difference(&povray)?, difference(&tachyon)?, difference(&npy)?);
+    let differing = |difference: &Difference| difference.differing_share * 100.0;
+    Ok(format!(
+        "| {count} | {:.6} | {:.3} % | {:.6} | {:.6} | {:.3} % |\n",
+        povray.mean,
+        differing(&povray),
+        tachyon.mean,
+        npy.mean,
+        differing(&npy),
+    ))
 }
 
 fn markdown(rows: &[Row], differences: &[String], rounds: usize, versions: &str) -> Result<String, String> {
@@ -126,8 +131,9 @@ fn about(rounds: usize) -> String {
 }
 
 const ABOUT_DIFFERENCES: &str = "\
-Mean absolute difference of a component from 0 to 1, as `durer compare` gives it, and how many pixels differ at all.
+Mean absolute difference of a component from 0 to 1, as `durer compare` gives it, and how many pixels differ at all;
+with Tachyon all do, since it writes linear numbers of 8 bits, which are coarser.
 
-| shapes | POV-Ray | pixels | Tachyon | pixels | durer from .npy | pixels |
-|---|---:|---:|---:|---:|---:|---:|
+| shapes | POV-Ray | pixels | Tachyon | durer from .npy | pixels |
+|---|---:|---:|---:|---:|---:|
 ";

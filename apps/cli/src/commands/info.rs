@@ -156,8 +156,9 @@ impl<'s> Facts<'s> {
 
     /// What takes how many bytes for how many of what.
     fn shares(&self) -> Vec<(usize, usize, &'static str)> {
-        let GeometryMemory { meshes, triangles, .. } = self.memory;
-        [(meshes, triangles, "triangle")].into_iter().filter(|(_, number, _)| *number > 0).collect()
+        let GeometryMemory { meshes, triangles, particles, particle_count, .. } = self.memory;
+        let shares = [(meshes, triangles, "triangle"), (particles, particle_count, "particle")];
+        shares.into_iter().filter(|(_, number, _)| *number > 0).collect()
     }
 
     fn json(&self) -> Value {

@@ -61,7 +61,10 @@ fn copies_are_their_objects_in_their_places() {
     for (rotations, scales) in [
         (None, Sizes::Same(1.0)),
         (Some(numbers(5, 20, 300.0)), Sizes::Same(0.7)),
-        (Some(numbers(6, 20, 90.0)), Sizes::Each(Data::inline((1..=20).map(|i| f64::from(i) * 0.1).collect::<Vec<_>>()))),
+        (
+            Some(numbers(6, 20, 90.0)),
+            Sizes::Each(Data::inline((1..=20).map(|i| f64::from(i) * 0.1).collect::<Vec<_>>())),
+        ),
     ] {
         let rotations = rotations.map(Data::inline);
         let all = Instances { rotations, scales, ..copies(things(), numbers(3, 20, 2.0)) };

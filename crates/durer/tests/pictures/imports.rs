@@ -8,7 +8,10 @@ use durer::scene::{Camera, Import, Object, TransformStep};
 /// Twice as large, turned by 90° about y, then moved: (x, y, z) goes to (2z + 1, 2y, 3 - 2x).
 fn placed(object: Object) -> Object {
     let turn = TransformStep::Rotate { axis: DVec3::Y, degrees: 90.0 };
-    moved(object, vec![TransformStep::Scale(DVec3::splat(2.0)), turn, TransformStep::Translate(DVec3::new(1.0, 0.0, 3.0))])
+    moved(
+        object,
+        vec![TransformStep::Scale(DVec3::splat(2.0)), turn, TransformStep::Translate(DVec3::new(1.0, 0.0, 3.0))],
+    )
 }
 
 const THINGS: &str = "objects: [sphere: {radius: 0.5}, plane: {point: [0, -0.5, 0]}]";

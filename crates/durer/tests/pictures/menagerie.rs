@@ -1,9 +1,12 @@
 //! One of everything in one scene: it is the same however it is rendered, and explained as it was rendered.
 
-use crate::objects::{ball, copies, cube, instances, mesh, moved, part, with, with_material};
+use crate::objects::{ball, copies, cube, instances, mesh, moved, part, particles, with, with_material};
 use crate::support::{compile, explained, scene};
 use durer::math::{DVec3, Rgb};
-use durer::scene::{Antialias, Instances, MaterialId, MeshData, Object, Scene, TransformStep};
+use durer::scene::{
+    Antialias, Data, Instances, MaterialId, MeshData, Object, ObjectKind, Operation, ParticleKind, Scene, Sizes, Solid,
+    TransformStep,
+};
 use durer::{CompiledScene, Film, Region, RenderOptions};
 
 const TEXT: &str = "
@@ -30,6 +33,27 @@ fn at(object: Object, x: f64, y: f64, z: f64) -> Object {
     moved(object, vec![small, turn, TransformStep::Translate(DVec3::new(x, y, z))])
 }
 
+fn bonds() -> ParticleKind {
+    let bases = Data::inline(vec![DVec3::new(-3.0, 0.0, 0.0), DVec3::new(-3.0, 1.0, -1.0)]);
+    let tops = Data::inline(vec![DVec3::new(-2.0, -0.5, 1.5), DVec3::new(0.0, 2.5, -2.0)]);
+    ParticleKind::Capsules { bases, tops, radii: Sizes::Same(0.15) }
+}
+
+/// Some of which overlap.
+fn bubbles() -> ParticleKind {
+    let centers =
+        (0..12).map(|i| DVec3::new(f64::from(i) * 0.35 - 2.0, 0.1 * f64::from(i % 3), 2.5)).collect::<Vec<_>>();
+    ParticleKind::Spheres { centers: Data::inline(centers), radii: Sizes::Same(0.2) }
+}
+
+/// A ball of glass with a bite of gold.
+fn lens() -> Object {
+    let text = "objects: [box: {min: [-1, -1, -1], max: [0.4, 1, 1]}, sphere: {radius: 0.9}]";
+    let [block, ball] = scene(text).objects.try_into().expect("two objects");
+    let operands = vec![with_material(ball, 1), with_material(block, 0)];
+    Object::new(ObjectKind::Solid(Solid { operation: Operation::Difference, operands }))
+}
+
 /// One of everything.
 pub(crate) fn menagerie() -> Scene {
     let smooth = ball(12);
@@ -50,6 +74,9 @@ pub(crate) fn menagerie() -> Scene {
         at(mesh(colored), 0.0, 1.0, -2.0),
         at(with_material(mesh(ball(6)), 2), -2.4, 1.5, -1.0),
         instances(row),
+        with_material(particles(bonds(), Some(vec![Rgb::new(0.9, 0.8, 0.3), Rgb::new(0.2, 0.3, 0.9)])), 0),
+        with_material(particles(bubbles(), None), 1),
+        at(lens(), 2.4, 1.2, 0.2),
     ];
     with(scene(TEXT), objects)
 }

@@ -201,7 +201,9 @@ fn colors_of_vertices_are_interpolated() {
         assert_color(seen("gold", x, y).color, weights);
         let striped = "{stripes: {colors: [[0.5, 1, 0.25], [0.5, 1, 0.25]]}}";
         assert_color(seen(striped, x, y).color, [0.5 * weights[0], weights[1], 0.25 * weights[2]]);
-        let Element::Triangle { index: 0, weights: found } = seen("gold", x, y).hit().element else { panic!("triangle") };
+        let Element::Triangle { index: 0, weights: found } = seen("gold", x, y).hit().element else {
+            panic!("triangle")
+        };
         assert_vector(DVec3::from(found), weights);
     }
 }

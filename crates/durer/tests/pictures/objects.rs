@@ -74,7 +74,7 @@ pub(crate) fn ball(steps: u32) -> MeshData {
             (f64::from(j) / f64::from(steps) - 0.5) * std::f64::consts::PI,
         );
         // The poles are points, so that the mesh is closed.
-        let (sin, cos) = if j % steps == 0 { (latitude.signum(), 0.0) } else { latitude.sin_cos() };
+        let (sin, cos) = if j.is_multiple_of(steps) { (latitude.signum(), 0.0) } else { latitude.sin_cos() };
         [(cos * longitude.sin()) as f32, sin as f32, (cos * longitude.cos()) as f32]
     };
     let row = 2 * steps + 1;

@@ -85,6 +85,17 @@ impl Solid {
         self.leaves.iter().map(|leaf| leaf.first_part)
     }
 
+    /// The shape that a part belongs to, in the solid's space, and which of its own parts it is.
+    pub(crate) fn shape_of(&self, part: u32) -> (&Primitive, u32) {
+        let (leaf, part) = self.leaf_and_part(part);
+        (&leaf.shape, part)
+    }
+
+    /// Bytes held.
+    pub(crate) fn memory(&self) -> usize {
+        size_of_val(self.leaves.as_slice()) + size_of_val(self.nodes.as_slice())
+    }
+
     /// The leaf that a part belongs to, and which of its own parts it is.
     fn leaf_and_part(&self, part: u32) -> (&Leaf, u32) {
         let leaf = &self.leaves[self.leaf_of(part)];

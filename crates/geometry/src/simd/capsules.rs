@@ -7,7 +7,7 @@
 use super::blocks::{Block, Hits, Spans, WideRay};
 use super::frusta::{Axes, Seen};
 use super::spheres::Quadratics;
-use fearless_simd::{Simd, f64x4, mask64x4, prelude::*};
+use fearless_simd::{Simd, f64x4, prelude::*};
 
 /// The numbers of a capsule: the centers of its half balls, its radius.
 pub(crate) const NUMBERS: usize = 7;
@@ -21,18 +21,15 @@ pub(crate) fn hits<S: Simd>(simd: S, capsules: &Block<NUMBERS>, ray: &WideRay<S>
         return Hits::NONE;
     }
     let zero = f64x4::splat(simd, 0.0);
-    let has_axis = axes.squared_length.simd_gt(zero);
     let tube = Tubes::new(simd, &axes, radius, ray);
-    // A ray that misses the endless tube misses the balls.
-    let passing = axes.near & (tube.endless.met | !has_axis);
+    // A ray that misses the endless tube misses the balls; without an axis there are balls only.
+    let passing = axes.near & (tube.endless.met | axes.squared_length.simd_eq(zero));
     if passing.to_bitmask() == 0 {
         return Hits::NONE;
     }
     let below = Quadratics::round(simd, axes.from_base, radius, ray).spans(simd);
     let above = Quadratics::round(simd, axes.from_base - axes.axis, radius, ray).spans(simd);
-    let mut tube = tube.spans(simd);
-    tube.met &= has_axis;
-    let all = tube.around(simd, &below).around(simd, &above);
+    let all = tube.spans(simd).around(simd, &below).around(simd, &above);
     let t = all.enter.simd_gt(zero).select(all.enter, all.exit);
     let hit = passing & all.met & t.simd_gt(zero) & t.simd_lt(f64x4::splat(simd, t_max));
     Hits { which: hit.to_bitmask() as u32, t: t.into(), faces: [0; 2] }
@@ -43,27 +40,23 @@ pub(crate) fn hits<S: Simd>(simd: S, capsules: &Block<NUMBERS>, ray: &WideRay<S>
 struct Tubes<S: Simd> {
     seen: Seen<S>,
     endless: Quadratics<S>,
-    /// Which axes the ray is not parallel to.
-    leans: mask64x4<S>,
 }
 
 impl<S: Simd> Tubes<S> {
     #[inline(always)]
     fn new(simd: S, axes: &Axes<S>, radius: f64x4<S>, ray: &WideRay<S>) -> Tubes<S> {
         let seen = Seen::new(simd, axes, axes.from_base, ray);
-        let a = seen.across.square();
-        // Parallel to the axis b is 0 too, and what is near need not be divided by a.
-        let leans = a.simd_gt(f64x4::splat(simd, 0.0));
-        let per_a = leans.select(f64x4::splat(simd, 1.0) / a, f64x4::splat(simd, 0.0));
-        Tubes { seen, endless: Quadratics::new(simd, (seen.away, seen.across), (a, per_a), radius), leans }
+        let (zero, a) = (f64x4::splat(simd, 0.0), seen.across.square());
+        // Parallel to the axis nothing is divided by a: all points are as near, and the balls say where the ends are.
+        let per_a = a.simd_gt(zero).select(f64x4::splat(simd, 1.0) / a, zero);
+        Tubes { seen, endless: Quadratics::new(simd, (seen.away, seen.across), (a, per_a), radius) }
     }
 
     #[inline(always)]
     fn spans(&self, simd: S) -> Spans<S> {
         let (side, (slab, _)) = (self.endless.spans(simd), self.seen.slabs(simd));
-        let side_exit = self.leans.select(side.exit, f64x4::splat(simd, f64::INFINITY));
         let enter = slab.enter.simd_gt(side.enter).select(slab.enter, side.enter);
-        let exit = slab.exit.simd_lt(side_exit).select(slab.exit, side_exit);
+        let exit = slab.exit.simd_lt(side.exit).select(slab.exit, side.exit);
         Spans { met: side.met & slab.met & enter.simd_lt(exit), enter, exit }
     }
 }

@@ -1,5 +1,6 @@
 //! What objects are made of, made once for all that share it.
 
+use super::GeometryMemory;
 use super::looks::Colors;
 use super::{particles, shapes, solids};
 use durer_geometry::{Mesh, MeshSource, Primitive};
@@ -12,7 +13,7 @@ use std::sync::Arc;
 /// The meshes of a scene, each built once however many objects show it.
 pub(super) struct Contents {
     /// In the order in which they first appear.
-    pub(super) meshes: Vec<Arc<Mesh>>,
+    meshes: Vec<Arc<Mesh>>,
     /// Where the mesh of some data is in that list, by the data's address.
     indices: HashMap<usize, usize>,
 }
@@ -62,6 +63,15 @@ impl Contents {
         Contents { meshes: found.into_par_iter().map(build).collect(), indices }
     }
 
+    /// Bytes of the meshes, and how many triangles they have.
+    pub(super) fn memory(&self) -> GeometryMemory {
+        GeometryMemory {
+            meshes: self.meshes.iter().map(|mesh| mesh.memory()).sum(),
+            triangles: self.meshes.iter().map(|mesh| mesh.source().triangles().len()).sum(),
+            ..GeometryMemory::default()
+        }
+    }
+
     /// What an object is made of; `None` if there is nothing of it.
     pub(super) fn get<'s>(&self, kind: &'s ObjectKind) -> Option<Content<'s>> {
         match kind {
@@ -86,6 +96,18 @@ impl Content<'_> {
             Content::Mesh(mesh, data) => Primitive::mesh(mesh.clone(), data.origin, world),
             Content::Particles(particles, _) => Primitive::particles(particles.clone(), world),
             Content::Solid(solid, _) => solid.placed(world),
+        }
+    }
+
+    /// Adds the bytes of particles and solids; meshes may be shared by several objects.
+    pub(super) fn add_memory(&self, memory: &mut GeometryMemory) {
+        match self {
+            Content::Particles(particles, many) => {
+                memory.particles += particles.memory();
+                memory.particle_count += many.kind.len();
+            }
+            Content::Solid(solid, _) => memory.solids += solid.shared_memory(),
+            Content::Shape(_) | Content::Mesh(..) => {}
         }
     }
 

@@ -43,12 +43,23 @@ pub(crate) struct Looks {
 }
 
 /// What differs from part to part of a primitive, or from point to point of a part.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Details {
     /// The first part of each run of parts with the same material, and that; the first run starts at part 0. Empty if
     /// there is but one material.
     runs: Vec<(u32, u32)>,
+    /// What it is made of: the one thing that it is, or the operands of a solid in the order of their parts.
+    origins: Vec<Origin>,
+}
+
+/// What some of the parts of a primitive come from.
+#[derive(Clone, Debug)]
+pub(crate) struct Origin {
+    /// The first of these parts.
+    pub(crate) first_part: u32,
     pub(crate) colors: Colors,
+    /// From the solid's space to that in which the user described the operand; `None` where they are the same.
+    pub(crate) operand_from_solid: Option<DAffine3>,
 }
 
 /// Colours of a primitive's own. They take the place of a material's plain colour, and multiply its texture.
@@ -124,9 +135,35 @@ impl Looks {
     }
 }
 
+impl Origin {
+    /// All of a primitive comes from one thing.
+    pub(super) fn whole(colors: Colors) -> Origin {
+        Origin { first_part: 0, colors, operand_from_solid: None }
+    }
+}
+
 impl Details {
-    pub(super) fn new(runs: &[(u32, u32)], colors: Colors) -> Details {
-        Details { runs: runs.to_vec(), colors }
+    /// `runs` are empty, or start at part 0, as `origins` do.
+    pub(super) fn new(runs: &[(u32, u32)], origins: Vec<Origin>) -> Details {
+        Details { runs: runs.to_vec(), origins }
+    }
+
+    /// The same without materials.
+    pub(super) fn without_materials(&self) -> Details {
+        Details { runs: Vec::new(), ..self.clone() }
+    }
+
+    /// What a part comes from, and the index of that.
+    #[inline]
+    pub(crate) fn origin(&self, part: u32) -> (usize, &Origin) {
+        let after = self.origins.partition_point(|origin| origin.first_part <= part);
+        let index = after.saturating_sub(1);
+        (index, &self.origins[index])
+    }
+
+    /// True for a solid of several things.
+    pub(crate) fn is_solid(&self) -> bool {
+        self.origins.len() > 1
     }
 
     /// The material of a part, if parts have materials of their own.
@@ -184,7 +221,7 @@ mod tests {
         let mesh = mesh(20, &[(2, 3, Some(1)), (5, 0, Some(8)), (5, 4, Some(1)), (9, 2, None), (12, 8, Some(2))]);
         let runs = runs(&mesh, None, 7);
         assert_eq!(runs, [(0, 7), (2, 1), (9, 7), (12, 2)]);
-        let details = Details::new(&runs, Colors::None);
+        let details = Details::new(&runs, vec![Origin::whole(Colors::None)]);
         for triangle in 0..20 {
             let part = mesh.parts.iter().find(|part| (part.first..part.first + part.count).contains(&triangle));
             let expected = part.and_then(|part| part.material).map_or(7, |id| id.0);
@@ -198,6 +235,6 @@ mod tests {
         assert_eq!(runs(&mesh(6, &parts), Some(4), 7), [(0, 4)]);
         assert_eq!(runs(&mesh(6, &parts[..1]), None, 1), [(0, 1)]);
         assert_eq!(runs(&mesh(3, &parts[..1]), None, 7), [(0, 1)], "nothing is left of what is around");
-        assert_eq!(Details::new(&[(0, 4)], Colors::None).material(2), None);
+        assert_eq!(Details::new(&[], vec![Origin::whole(Colors::None)]).material(2), None);
     }
 }

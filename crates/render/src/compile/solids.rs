@@ -1,6 +1,7 @@
 //! From the solids of a scene to those of geometry.
 
-use super::contents::Contents;
+use super::contents::{Content, Contents};
+use super::looks::{Origin, runs};
 use durer_geometry::{Operand, Operation, Primitive};
 use durer_math::DAffine3;
 use durer_scene::{Object, ObjectKind, Solid};
@@ -37,25 +38,66 @@ fn operand(object: &Object, contents: &Contents, solid_from_parent: &DAffine3) -
     }
 }
 
-/// The first part of each run of parts with the same material, and that; `inherited` is what operands without a material
-/// of their own have.
-pub(super) fn runs(solid: &Solid, placed: &Primitive, inherited: u32) -> Vec<(u32, u32)> {
-    let mut materials = Vec::new();
-    each_material(&solid.operands, inherited, &mut materials);
-    let mut runs: Vec<(u32, u32)> = placed.leaf_starts().into_iter().zip(materials).collect();
-    runs.dedup_by_key(|&mut (_, material)| material);
-    if runs.is_empty() { vec![(0, inherited)] } else { runs }
+/// The runs of parts with the same material, in order: the first part of each, and the material. `inherited` is what
+/// operands without a material of their own have. `origins` become the operands.
+pub(super) fn details(
+    solid: &Solid,
+    placed: &Primitive,
+    contents: &Contents,
+    inherited: u32,
+    origins: &mut Vec<Origin>,
+) -> Vec<(u32, u32)> {
+    let mut leaves = Vec::new();
+    add_leaves(&solid.operands, contents, (inherited, DAffine3::IDENTITY), &mut leaves);
+    let mut all_runs = Vec::new();
+    let placed = placed.leaf_starts().into_iter().zip(leaves);
+    let origin = |(first_part, leaf): (u32, Leaf<'_>)| {
+        let runs = match leaf.content.mesh_data() {
+            Some(data) => runs(data, leaf.own, leaf.around),
+            None => vec![(0, leaf.own.unwrap_or(leaf.around))],
+        };
+        all_runs.extend(runs.iter().map(|&(part, material)| (first_part + part, material)));
+        let (map, colors) = (leaf.solid_from_object, leaf.content.colors());
+        let operand_from_solid = (map != DAffine3::IDENTITY).then(|| map.inverse());
+        Origin { first_part, colors, operand_from_solid }
+    };
+    let found: Vec<Origin> = placed.map(origin).collect();
+    if found.is_empty() {
+        // Nothing is inside, and nothing will be hit.
+        return vec![(0, inherited)];
+    }
+    *origins = found;
+    all_runs.dedup_by_key(|&mut (_, material)| material);
+    all_runs
 }
 
-/// The materials of the leaves, in the order in which [`build`] gives them.
-fn each_material(objects: &[Object], inherited: u32, materials: &mut Vec<u32>) {
+/// A shape that a solid is made of.
+struct Leaf<'s> {
+    content: Content<'s>,
+    solid_from_object: DAffine3,
+    own: Option<u32>,
+    /// The material of what is around it.
+    around: u32,
+}
+
+/// The leaves, in the order in which [`build`] gives them.
+fn add_leaves<'s>(
+    objects: &'s [Object],
+    contents: &Contents,
+    (around, solid_from_parent): (u32, DAffine3),
+    leaves: &mut Vec<Leaf<'s>>,
+) {
     for object in objects {
-        let own = object.material.map_or(inherited, |id| id.0);
+        let own = object.material.map(|id| id.0);
+        let solid_from_object = solid_from_parent * object.transform.to_affine();
+        let inside = (own.unwrap_or(around), solid_from_object);
         match &object.kind {
-            ObjectKind::Group(members) => each_material(members, own, materials),
-            ObjectKind::Solid(solid) => each_material(&solid.operands, own, materials),
-            ObjectKind::Mesh(mesh) if mesh.data.triangles.is_empty() => {}
-            _ => materials.push(own),
+            ObjectKind::Group(members) => add_leaves(members, contents, inside, leaves),
+            ObjectKind::Solid(solid) => add_leaves(&solid.operands, contents, inside, leaves),
+            kind => {
+                let leaf = |content| Leaf { content, solid_from_object, own, around };
+                leaves.extend(contents.get(kind).map(leaf));
+            }
         }
     }
 }

@@ -5,8 +5,9 @@
 //! but its primitive. Maps are multiplied from the world inwards, copy by copy: an instance is, to the bit, the object
 //! that stands in its place.
 
+use super::GeometryMemory;
 use super::contents::{Content, Contents};
-use super::looks::{Colors, Details, Looks, PlacedObject, runs};
+use super::looks::{Colors, Details, Looks, Origin, PlacedObject, runs};
 use super::solids;
 use crate::materials::Material;
 use durer_geometry::Primitive;
@@ -70,6 +71,11 @@ impl<'s> Tree<'s> {
         self.objects.len()
     }
 
+    /// Adds the bytes of particles and solids.
+    pub(super) fn add_memory(&self, memory: &mut GeometryMemory) {
+        self.objects.add_memory(memory);
+    }
+
     /// The shape with this index, depth first, in the world.
     pub(super) fn place(&self, index: u32) -> (Primitive, PlacedObject) {
         let (mut world, mut list, mut index) = (DAffine3::IDENTITY, &self.objects, index);
@@ -125,7 +131,7 @@ impl<'s> Tree<'s> {
             }
             ObjectKind::Shape(_) | ObjectKind::Mesh(_) | ObjectKind::Particles(_) | ObjectKind::Solid(_) => {
                 match contents.get(&object.kind) {
-                    Some(content) => Kind::One(Box::new(self.leaf(content, own, around))),
+                    Some(content) => Kind::One(Box::new(self.leaf(content, contents, own, around))),
                     None => Kind::Many(List { nodes: Vec::new(), ends: Vec::new() }),
                 }
             }
@@ -133,10 +139,11 @@ impl<'s> Tree<'s> {
         Node { parent_from_object: object.transform.to_affine(), kind }
     }
 
-    fn leaf(&mut self, content: Content<'s>, own: Option<u32>, around: Around) -> Leaf<'s> {
+    fn leaf(&mut self, content: Content<'s>, contents: &Contents, own: Option<u32>, around: Around) -> Leaf<'s> {
         let material = own.unwrap_or(around.material);
+        let mut origins = vec![Origin::whole(content.colors())];
         let runs = match (&content, content.mesh_data()) {
-            (Content::Solid(placed, solid), _) => solids::runs(solid, placed, material),
+            (Content::Solid(placed, solid), _) => solids::details(solid, placed, contents, material, &mut origins),
             (_, Some(data)) => runs(data, own, around.material),
             (_, None) => vec![(0, material)],
         };
@@ -146,16 +153,14 @@ impl<'s> Tree<'s> {
             (_, &[(_, material)]) => Looks::plain(material, self.materials, || content.is_closed()),
             (_, runs) => Looks::of_runs(runs, self.materials, || content.is_closed()),
         };
-        let colors = content.colors();
         let several = runs.len() > 1 || runs[0].1 != looks.material;
-        let runs = if several { &runs[..] } else { &[] };
-        let has_details = several || content.is_smooth() || !matches!(colors, Colors::None);
-        let details = has_details.then(|| self.add(Details::new(runs, colors.clone())));
-        let details_without_materials = match several {
-            false => details,
-            true if around.copies_have_materials => Some(self.add(Details::new(&[], colors))),
-            true => None,
-        };
+        let is_plain = matches!(origins[..], [Origin { colors: Colors::None, operand_from_solid: None, .. }]);
+        let has_details = several || content.is_smooth() || !is_plain;
+        let details = Details::new(if several { &runs } else { &[] }, origins);
+        let details_without_materials =
+            (has_details && several && around.copies_have_materials).then(|| self.add(details.without_materials()));
+        let details = has_details.then(|| self.add(details));
+        let details_without_materials = if several { details_without_materials } else { details };
         Leaf { content, looks: looks.with_details(details), details_without_materials }
     }
 
@@ -168,6 +173,15 @@ impl<'s> Tree<'s> {
 impl<'s> List<'s> {
     fn len(&self) -> u32 {
         self.ends.last().copied().unwrap_or(0)
+    }
+
+    fn add_memory(&self, memory: &mut GeometryMemory) {
+        for node in &self.nodes {
+            match &node.kind {
+                Kind::One(leaf) => leaf.content.add_memory(memory),
+                Kind::Many(members) | Kind::Copies(_, members) => members.add_memory(memory),
+            }
+        }
     }
 
     /// The node that has the shape with this index, and its index in there.

@@ -98,13 +98,18 @@ fn line(from: (f64, f64), to: (f64, f64)) -> String {
     )
 }
 
-/// A power of ten.
+/// A power of ten: as a plain number if it is short, since not every font has a raised minus.
 fn label((x, y): (f64, f64), anchor: &str, power: f64) -> String {
-    format!("<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">10{}</text>\n", raised(power))
+    let number = match power as i32 {
+        power @ 0..=2 => 10_u32.pow(power.unsigned_abs()).to_string(),
+        power @ -4..0 => format!("0.{:0>1$}", 1, power.unsigned_abs() as usize),
+        power => format!("10{}", raised(power)),
+    };
+    format!("<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{number}</text>\n")
 }
 
-/// A whole number as an exponent.
-fn raised(number: f64) -> String {
+/// A number as an exponent.
+fn raised(number: i32) -> String {
     let of = |character| match character {
         '-' => '⁻',
         '1' => '¹',
@@ -113,7 +118,7 @@ fn raised(number: f64) -> String {
         digit @ '4'..='9' => char::from_u32('⁴' as u32 + digit as u32 - '4' as u32).unwrap_or(digit),
         _ => '⁰',
     };
-    format!("{number:.0}").chars().map(of).collect()
+    number.to_string().chars().map(of).collect()
 }
 
 /// An axis from one power of ten to another.
@@ -164,8 +169,15 @@ mod tests {
     }
 
     #[test]
-    fn exponents_are_raised() {
-        assert_eq!([-4.0, 0.0, 9.0, 13.0].map(raised), ["⁻⁴", "⁰", "⁹", "¹³"]);
+    fn powers_of_ten_are_written() {
+        let written = |power| {
+            let label = label((0.0, 0.0), "end", power);
+            label.split(['<', '>']).nth(2).map(str::to_owned).unwrap()
+        };
+        assert_eq!(
+            [-5.0, -4.0, -1.0, 0.0, 2.0, 3.0, 13.0].map(written),
+            ["10⁻⁵", "0.0001", "0.1", "1", "100", "10³", "10¹³"]
+        );
     }
 
     #[test]

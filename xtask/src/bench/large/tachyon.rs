@@ -20,14 +20,17 @@ pub(super) fn write(count: usize, size: u32, out: &mut impl Write) -> io::Result
 }
 
 fn head(size: u32, out: &mut impl Write) -> io::Result<()> {
-    let half = HALF_HEIGHT;
+    // Tachyon's rays go through corners of pixels. So the picture is moved by half a pixel, for those through the middles.
+    let half_pixel = HALF_HEIGHT / f64::from(size);
+    let [left, right] = [HALF_HEIGHT, -HALF_HEIGHT].map(|side| side + half_pixel);
+    let [bottom, top] = [-HALF_HEIGHT, HALF_HEIGHT].map(|side| side - half_pixel);
     let (eye, forward) = (Numbers(EYE.to_array()), Numbers((-EYE.normalize()).to_array()));
     writeln!(
         out,
         "BEGIN_SCENE\nRESOLUTION {size} {size}\nCAMERA\n PROJECTION PERSPECTIVE\n ZOOM 1.0\n ASPECTRATIO 1.0"
     )?;
     writeln!(out, " ANTIALIASING 0\n RAYDEPTH 5\n CENTER {eye}\n VIEWDIR {forward}\n UPDIR 0 1 0")?;
-    writeln!(out, " FRUSTUM {half} -{half} -{half} {half}\nEND_CAMERA\nBACKGROUND {}", Numbers(BACKGROUND))?;
+    writeln!(out, " FRUSTUM {left} {right} {bottom} {top}\nEND_CAMERA\nBACKGROUND {}", Numbers(BACKGROUND))?;
     writeln!(out, "LIGHT CENTER {} RAD 0.0 COLOR 1 1 1", Numbers(LAMP.to_array()))?;
     let texture = |color: [f64; 3]| {
         let color = Numbers(color);
@@ -56,10 +59,10 @@ mod tests {
     #[test]
     fn the_model_has_all_its_parts() {
         let mut out = Vec::new();
-        write(100, 1024, &mut out).unwrap();
+        write(100, 9, &mut out).unwrap();
         let text = String::from_utf8(out).unwrap();
         let count = |word: &str| text.lines().filter(|line| line.starts_with(word)).count();
         assert_eq!((count("SPHERE "), count("FCYLINDER "), count("TEXDEF "), count("PLANE ")), (50, 50, 8, 1));
-        assert!(text.contains("FRUSTUM 0.45 -0.45 -0.45 0.45") && text.ends_with("END_SCENE\n"), "{text}");
+        assert!(text.contains("FRUSTUM 0.5 -0.4 -0.5 0.4") && text.ends_with("END_SCENE\n"), "{text}");
     }
 }

@@ -3,9 +3,7 @@
 use super::{Explained, words};
 use crate::labels;
 use durer::math::{DVec3, Rgb};
-use durer::{
-    Contribution, HitExplanation, HoleExplanation, LightExplanation, RayExplanation, SampleExplanation,
-};
+use durer::{Contribution, HitExplanation, HoleExplanation, LightExplanation, RayExplanation, SampleExplanation};
 use serde_json::{Value, json};
 
 impl Explained<'_> {

@@ -62,6 +62,8 @@ pub(super) fn element(element: Element) -> String {
             let [a, b, c] = weights.map(|weight| short((weight * 1e4).round() / 1e4));
             format!(", triangle {index} ({a} {b} {c})")
         }
+        Element::Particle { index } => format!(", particle {index}"),
+        Element::Operand { index } => format!(", shape {index} of the solid"),
     }
 }
 
@@ -70,6 +72,8 @@ pub(super) fn element_json(element: Element) -> Value {
     match element {
         Element::Face(index) => json!({ "face": index }),
         Element::Triangle { index, weights } => json!({ "triangle": index, "weights": weights }),
+        Element::Particle { index } => json!({ "particle": index }),
+        Element::Operand { index } => json!({ "operand": index }),
     }
 }
 

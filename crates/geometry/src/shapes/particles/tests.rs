@@ -81,6 +81,23 @@ impl One {
         }
     }
 
+    /// From one end to the other; any direction for a sphere.
+    fn axis(self) -> DVec3 {
+        match self {
+            One::Sphere(..) => DVec3::Y,
+            One::Frustum([base, top], _) | One::Tube([base, top], _) | One::Capsule([base, top], _) => top - base,
+        }
+    }
+
+    /// The direction of a straight line in the side.
+    fn generator(self, around: DVec3) -> DVec3 {
+        let out = self.axis().cross(around).normalize();
+        match self {
+            One::Frustum(_, radii) | One::Tube(_, radii) => self.axis() + out * (radii[1] - radii[0]),
+            One::Sphere(..) | One::Capsule(..) => self.axis(),
+        }
+    }
+
     fn center(self) -> DVec3 {
         match self {
             One::Sphere(center, _) => center,

@@ -46,7 +46,16 @@ fn deepest(one: One, ray: &Ray, length: f64) -> f64 {
 fn ray_at(random: &mut Random, one: One, map: &DAffine3, distance: f64) -> Ray {
     let (size, center) = (one.size(), one.center());
     let target = map.transform_point3(center + random.in_cube() * (0.4 * size));
-    let direction = random.direction();
+    // Along the axis or the side but for rounding, and little more.
+    let along = match random.between(0.0, 6.0) as u32 {
+        0 => one.axis(),
+        1 => one.generator(random.direction()),
+        _ => random.direction(),
+    };
+    let along = map.transform_vector3(along).normalize();
+    let doubt = if random.between(0.0, 1.0) < 0.5 { random.power(-18.0, -2.0) } else { 0.0 };
+    let direction = (along + random.direction() * doubt).normalize();
+    let direction = if random.between(0.0, 1.0) < 0.5 { direction } else { -direction };
     Ray { origin: target - direction * distance, direction }
 }
 

@@ -87,3 +87,44 @@ fn capsules_keep_them() {
         known.rims_have_no_gap(&RING.iter().flat_map(seams).collect::<Vec<_>>());
     }
 }
+
+/// As the single cone, where the numbers are explained.
+#[test]
+fn cones_are_met_along_generator_and_axis() {
+    let cone = |open: bool| if open { One::Tube(AXIS, [1.0, 0.0]) } else { One::Frustum(AXIS, [1.0, 0.0]) }.set();
+    let hit = |open, origin, direction| {
+        let crossing = cone(open).intersect(&Ray { origin, direction }, f64::INFINITY);
+        crossing.map(|crossing| (crossing.t, crossing.part))
+    };
+    assert_eq!(hit(false, DVec3::new(0.0, 3.0, 0.0), DVec3::NEG_Y), Some((2.0, 0)));
+    assert_eq!(cone(false).surface(DVec3::Y, 0), (DVec3::Y, DVec3::Y));
+    assert_eq!(hit(false, DVec3::new(0.0, -1.0, 0.0), DVec3::Y), Some((1.0, 1)));
+    assert_eq!(hit(true, DVec3::new(0.0, -1.0, 0.0), DVec3::Y), Some((2.0, 0)));
+    let along = DVec3::new(1.0, -1.0, 0.0);
+    assert_eq!(hit(false, DVec3::new(-1.0, 1.0, 0.0), along), Some((0.5, 0)));
+    assert_eq!(hit(false, DVec3::new(0.25, 0.5, 0.0), along), Some((0.5, 1)));
+    assert_eq!(hit(true, DVec3::new(0.25, 0.5, 0.0), along), None);
+    assert_eq!(hit(false, DVec3::new(-0.5, 1.5 + 1e-9, 0.0), along), None);
+    assert_eq!(hit(false, DVec3::new(-3.0, 1.5, 0.0), DVec3::X), None);
+    // In the side itself is outside.
+    assert_eq!(hit(false, DVec3::new(0.0, 1.0, 0.0), along), None);
+    assert_eq!(hit(false, DVec3::new(0.25, 0.75, 0.0), along), None);
+}
+
+#[test]
+fn surfaces_have_the_nearest_points() {
+    let mut random = Random(14);
+    for kind in KINDS {
+        for _ in 0..500 {
+            let one = random.particle(kind, DVec3::ZERO, 1.0);
+            let set = one.set();
+            let ray = Ray { origin: one.center() + random.direction() * 9.0, direction: DVec3::ZERO };
+            let ray = Ray { direction: one.center() - ray.origin, ..ray };
+            let Some(crossing) = set.intersect(&ray, f64::INFINITY) else { continue };
+            let (on, normal) = set.surface(ray.at(crossing.t), crossing.part);
+            let off = on + normal * 1e-3;
+            let (back, same) = set.surface(off, crossing.part);
+            assert!((back - on).length() < 1e-14 && (same - normal).length() < 1e-12, "{one:?} {on} {back}");
+        }
+    }
+}

@@ -105,3 +105,48 @@ fn a_ray_along_a_surface_is_above_or_below() {
     }
     assert!(grazing > 3000, "the test must test something: {grazing}");
 }
+
+#[test]
+fn points_on_surfaces_are_as_near_as_promised() {
+    for (place, size) in [(0.0, 1.0), (1.0, 1.0), (1e3, 1e-2), (0.0, 1e-6)] {
+        for kind in KINDS {
+            let (mut random, mut worst) = (Random(42), 0.0_f64);
+            for _ in 0..2000 {
+                let at = random.in_cube() * place;
+                let one = random.particle(kind, at, size);
+                let set = one.set();
+                let direction = random.direction();
+                let ray = Ray { origin: one.center() - direction * (3.0 * size), direction };
+                let Some(crossing) = set.intersect(&ray, f64::INFINITY) else { continue };
+                let (point, _) = set.surface(ray.at(crossing.t), crossing.part);
+                worst = worst.max(one.depth(point - set.origin()).abs() / set.rounding(crossing.part));
+            }
+            assert!((0.02..=0.7).contains(&worst), "{worst} of what is promised: kind {kind} at {place} of {size}");
+        }
+    }
+}
+
+#[test]
+fn rims_are_inside_a_little() {
+    let mut random = Random(43);
+    let mut rims = 0;
+    for _ in 0..3000 {
+        let at = random.in_cube();
+        let One::Frustum([base, top], [radius, _]) = random.particle(1, at, 1.0) else { continue };
+        if radius == 0.0 {
+            continue;
+        }
+        let one = One::Frustum([base, top], [radius; 2]);
+        let cylinder = Primitive::particles(Arc::new(one.set()), &DAffine3::IDENTITY);
+        let out = (top - base).cross(random.direction()).normalize();
+        let rim = base + out * radius;
+        let direction = (base.lerp(top, 0.3) - rim + (top - base).cross(out) * random.between(-0.1, 0.1)).normalize();
+        let ray = Ray { origin: rim - direction, direction };
+        let Some(crossing) = cylinder.intersect(&ray, f64::INFINITY) else { continue };
+        let surface = cylinder.surface(&ray, &crossing);
+        let inside = surface.point - surface.normal * surface.offset;
+        assert!(cylinder.contains(inside), "{one:?} {surface:?}");
+        rims += 1;
+    }
+    assert!(rims > 1000, "the test must test something: {rims}");
+}
