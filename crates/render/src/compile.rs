@@ -22,7 +22,7 @@ use looks::Looks;
 use rayon::prelude::*;
 use tree::Tree;
 
-pub(crate) use looks::{CLEAR, Colors, Details, OPAQUE, PlacedObject};
+pub(crate) use looks::{CLEAR, Colors, Details, OPAQUE, Origin, PlacedObject};
 
 /// A scene ready for rays. Immutable; threads share it.
 #[derive(Debug)]

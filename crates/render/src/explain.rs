@@ -223,7 +223,7 @@ impl Observer for Recorder<'_> {
             from_outside: seen.from_outside,
             material: self.material(&seen.hit),
             color: seen.color,
-            opacity: seen.opacity,
+            opacity: seen.opacity.unwrap_or(Rgb::WHITE),
         };
         self.with_ray(|ray| ray.hit = Some(hit));
     }

@@ -54,8 +54,8 @@ pub(crate) struct SurfaceSeen {
     pub(crate) normal: DVec3,
     /// The colour there.
     pub(crate) color: Rgb,
-    /// How much of the surface is there.
-    pub(crate) opacity: Rgb,
+    /// How much of the surface is there; `None` if all of it.
+    pub(crate) opacity: Option<Rgb>,
     /// True if the ray came from the side that the normal points to.
     pub(crate) from_outside: bool,
 }

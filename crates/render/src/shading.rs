@@ -1,6 +1,6 @@
 //! A hit, with all that shading needs to know about it.
 
-use crate::compile::{Colors, CompiledScene, Details, PlacedObject};
+use crate::compile::{Colors, CompiledScene, Origin, PlacedObject};
 use crate::materials::{Material, Side, on_side, reflect};
 use crate::textures::TexturePoint;
 use durer_geometry::{Hit, Ray, Surface};
@@ -14,15 +14,14 @@ pub(crate) struct Shading<'a> {
     pub(crate) material: &'a Material,
     /// The colour there.
     pub(crate) color: Rgb,
-    /// How much of the surface is there.
-    pub(crate) opacity: Rgb,
+    /// How much of the surface is there; `None` if all of it.
+    pub(crate) opacity: Option<Rgb>,
     /// The direction of the ray that came here.
     pub(crate) direction: DVec3,
     /// The surface's unit normal on the side that the ray came from: rays start on either side of the surface by it.
     face: DVec3,
-    /// The unit normal by which light falls and is reflected and refracted: `face`, unless a mesh has others. The ray came
-    /// against it.
-    pub(crate) normal: DVec3,
+    /// The normal that a mesh wants, if it is another. The ray came against it, too.
+    smooth: Option<DVec3>,
     /// True if the ray came from the side that the surface's own normal points to.
     pub(crate) from_outside: bool,
     /// True if the surface bounds a medium.
@@ -35,22 +34,55 @@ impl<'a> Shading<'a> {
     pub(crate) fn at(scene: &'a CompiledScene, ray: &Ray, hit: &Hit) -> Shading<'a> {
         let surface = scene.world.surface(ray, hit);
         let object = &scene.objects[hit.primitive as usize];
+        if object.looks.has_details() {
+            return Shading::in_detail(scene, ray, hit, &surface);
+        }
+        let material = &scene.materials[object.looks.material as usize];
+        let color = scene.textures.color(material.color, &Textured { scene, object, surface: &surface, hit });
+        Shading::of(object, ray, hit, &surface, material, color)
+    }
+
+    /// The same for surfaces of which the parts differ, or that are shaded by other normals than their own, or have holes.
+    #[inline(never)]
+    fn in_detail(scene: &'a CompiledScene, ray: &Ray, hit: &Hit, surface: &Surface) -> Shading<'a> {
+        let object = &scene.objects[hit.primitive as usize];
         let material = &scene.materials[scene.material_at(hit) as usize];
-        let details = scene.details(hit.primitive);
-        let textured = Textured { scene, object, details, surface: &surface, hit };
+        let textured = Textured { scene, object, surface, hit };
+        let mut shading = Shading::of(object, ray, hit, surface, material, textured.color(material.color));
+        shading.opacity = material.opacity.map(|paint| textured.opacity(paint));
+        shading.smooth = smooth_normal(scene, surface, hit, shading.face, ray.direction);
+        shading
+    }
+
+    /// A whole surface, shaded as it is.
+    #[inline(always)]
+    fn of(
+        object: &PlacedObject,
+        ray: &Ray,
+        hit: &Hit,
+        surface: &Surface,
+        material: &'a Material,
+        color: Rgb,
+    ) -> Shading<'a> {
         let from_outside = ray.direction.dot(surface.normal) < 0.0;
-        let face = if from_outside { surface.normal } else { -surface.normal };
-        let (primitive, direction) = (hit.primitive, ray.direction);
-        let (color, normal) = match details {
-            None => (scene.textures.color(material.color, &textured), face),
-            Some(details) => {
-                let color = textured.color(material.color, details);
-                (color, normal_for_shading(scene, &surface, hit, face, direction))
-            }
-        };
-        let opacity = textured.opacity(material);
-        let bounds_medium = object.looks.is_medium;
-        Shading { primitive, surface, material, color, opacity, direction, face, normal, from_outside, bounds_medium }
+        Shading {
+            primitive: hit.primitive,
+            surface: *surface,
+            material,
+            color,
+            opacity: None,
+            direction: ray.direction,
+            face: if from_outside { surface.normal } else { -surface.normal },
+            smooth: None,
+            from_outside,
+            bounds_medium: object.looks.is_medium,
+        }
+    }
+
+    /// The unit normal by which light falls and is reflected and refracted, on the side that the ray came from.
+    #[inline]
+    pub(crate) fn normal(&self) -> DVec3 {
+        self.smooth.unwrap_or(self.face)
     }
 
     /// The point from which rays start on the side that the ray came from.
@@ -60,7 +92,7 @@ impl<'a> Shading<'a> {
 
     /// The ray from here in the mirrored direction, which stays on the side that the ray came from.
     pub(crate) fn mirrored(&self) -> Ray {
-        Ray { origin: self.origin_back(), direction: self.kept_on(Side::Front, reflect(self.direction, self.normal)) }
+        Ray { origin: self.origin_back(), direction: self.kept_on(Side::Front, reflect(self.direction, self.normal())) }
     }
 
     /// A ray from here on the far side, in this direction or, where that would come back, its mirror image.
@@ -71,71 +103,78 @@ impl<'a> Shading<'a> {
 
     /// A direction found by the normal, on the side of the face that it must be on.
     fn kept_on(&self, side: Side, direction: DVec3) -> DVec3 {
-        if self.normal == self.face { direction } else { on_side(direction, self.face, side) }
+        if self.smooth.is_some() { on_side(direction, self.face, side) } else { direction }
     }
 
     /// Between the normal and the direction to a light; not positive for a light behind the surface, whatever normal
     /// shading has.
     pub(crate) fn cosine(&self, to_light: DVec3) -> f64 {
         let above = self.face.dot(to_light);
-        if above > 0.0 { self.normal.dot(to_light) } else { above }
+        match self.smooth {
+            Some(normal) if above > 0.0 => normal.dot(to_light),
+            Some(_) | None => above,
+        }
     }
 }
 
 /// Phong's highlight: how much of a light in direction `to_light` is mirrored to where the ray came from.
 #[inline]
 pub(crate) fn highlight(shading: &Shading<'_>, to_light: DVec3) -> f32 {
-    let mirrored = shading.normal * (2.0 * shading.normal.dot(to_light)) - to_light;
+    let normal = shading.normal();
+    let mirrored = normal * (2.0 * normal.dot(to_light)) - to_light;
     let cosine = -mirrored.dot(shading.direction);
     if cosine > 0.0 { pow_wide(cosine, shading.material.shininess) } else { 0.0 }
 }
 
-/// A mesh's normal at a hit, on the side of `face`; `face` itself if it has none.
+/// A mesh's normal at a hit, on the side of `face`, if it has one.
 ///
 /// Near its silhouette a mesh shows triangles whose interpolated normals point away from the viewer, which no surface can
 /// have that he sees. They are turned just so far that he sees them edge-on.
-fn normal_for_shading(scene: &CompiledScene, surface: &Surface, hit: &Hit, face: DVec3, direction: DVec3) -> DVec3 {
-    let Some(normal) = scene.world.shading_normal(surface.point, hit) else { return face };
+fn smooth_normal(scene: &CompiledScene, surface: &Surface, hit: &Hit, face: DVec3, direction: DVec3) -> Option<DVec3> {
+    let normal = scene.world.shading_normal(surface.point, hit)?;
     let normal = if normal.dot(face) < 0.0 { -normal } else { normal };
     let away = normal.dot(direction);
-    if away < 0.0 { normal } else { (normal - direction * away).try_normalize().unwrap_or(face) }
+    if away < 0.0 { Some(normal) } else { (normal - direction * away).try_normalize() }
 }
 
 /// How much of the surface is there at a hit.
 pub(crate) fn opacity_at(scene: &CompiledScene, hit: &Hit, surface: &Surface) -> Rgb {
-    let (object, details) = (&scene.objects[hit.primitive as usize], scene.details(hit.primitive));
+    let object = &scene.objects[hit.primitive as usize];
     let material = &scene.materials[scene.material_at(hit) as usize];
-    Textured { scene, object, details, surface, hit }.opacity(material)
+    material.opacity.map_or(Rgb::WHITE, |paint| Textured { scene, object, surface, hit }.opacity(paint))
 }
 
 /// A hit as textures see it.
 struct Textured<'a> {
     scene: &'a CompiledScene,
     object: &'a PlacedObject,
-    details: Option<&'a Details>,
     surface: &'a Surface,
     hit: &'a Hit,
 }
 
 impl Textured<'_> {
+    /// What the part that was hit comes from, if there is more to say of it.
+    fn origin(&self) -> Option<&Origin> {
+        Some(self.scene.details(self.hit.primitive)?.origin(self.hit.crossing.part).1)
+    }
+
     /// Colours of the surface's own take the place of a plain colour, and multiply a texture's.
-    fn color(&self, paint: Paint, details: &Details) -> Rgb {
-        match (self.own_color(details), paint) {
+    fn color(&self, paint: Paint) -> Rgb {
+        match (self.own_color(), paint) {
             (None, _) => self.scene.textures.color(paint, self),
             (Some(own), Paint::Color(_)) => own,
             (Some(own), Paint::Texture(_)) => own * self.scene.textures.color(paint, self),
         }
     }
 
-    fn own_color(&self, details: &Details) -> Option<Rgb> {
-        let part = self.hit.crossing.part;
-        let (_, origin) = details.origin(part);
+    fn own_color(&self) -> Option<Rgb> {
+        let origin = self.origin()?;
         match &origin.colors {
             Colors::None => None,
             Colors::Vertices(data) => {
                 let weights = self.scene.world.vertex_weights(self.surface.point, self.hit)?;
-                let corners =
-                    data.triangles[(part - origin.first_part) as usize].map(|vertex| data.colors[vertex as usize]);
+                let corners = data.triangles[(self.hit.crossing.part - origin.first_part) as usize]
+                    .map(|vertex| data.colors[vertex as usize]);
                 let weighed = corners.into_iter().zip(weights).map(|(color, weight)| color * weight as f32);
                 Some(weighed.fold(Rgb::BLACK, |sum, color| sum + color))
             }
@@ -143,15 +182,9 @@ impl Textured<'_> {
         }
     }
 
-    fn opacity(&self, material: &Material) -> Rgb {
-        match material.opacity {
-            None => Rgb::WHITE,
-            // Images may hold anything.
-            Some(paint) => {
-                let component = |c: f32| if c > 0.0 { c.min(1.0) } else { 0.0 };
-                self.scene.textures.color(paint, self).map(component)
-            }
-        }
+    /// From 0 to 1, whatever an image may hold.
+    fn opacity(&self, paint: Paint) -> Rgb {
+        self.scene.textures.color(paint, self).map(|c| if c > 0.0 { c.min(1.0) } else { 0.0 })
     }
 }
 
@@ -161,8 +194,7 @@ impl TexturePoint for Textured<'_> {
             Some(map) => map.transform_point3(self.surface.point),
             None => self.surface.point,
         };
-        let operand = self.details.map(|details| details.origin(self.hit.crossing.part).1);
-        match operand.and_then(|operand| operand.operand_from_solid.as_ref()) {
+        match self.origin().and_then(|operand| operand.operand_from_solid.as_ref()) {
             Some(map) => map.transform_point3(point),
             None => point,
         }

@@ -40,6 +40,8 @@ pub(crate) struct Looks {
     pub(crate) has_holes: bool,
     /// True if some texture wants to know places in its object's space.
     is_textured: bool,
+    /// True if shading cannot but look at the details, or for holes.
+    has_details: bool,
 }
 
 /// What differs from part to part of a primitive, or from point to point of a part.
@@ -87,6 +89,7 @@ impl Looks {
             is_uneven: matches!(compiled.opacity, Some(Paint::Texture(_))),
             has_holes: compiled.opacity.is_some(),
             is_textured: compiled.is_textured(),
+            has_details: compiled.opacity.is_some(),
         }
     }
 
@@ -94,15 +97,16 @@ impl Looks {
     pub(super) fn of_runs(runs: &[(u32, u32)], materials: &[Material], is_closed: impl FnOnce() -> bool) -> Looks {
         let any = |is: fn(&Material) -> bool| runs.iter().any(|&(_, id)| is(&materials[id as usize]));
         let filling = runs.iter().find(|&&(_, id)| materials[id as usize].fills_with_medium());
-        let is_clear = any(Material::lets_light_pass);
+        let (is_clear, has_holes) = (any(Material::lets_light_pass), any(|material| material.opacity.is_some()));
         Looks {
             material: filling.or(runs.first()).map_or(materials.len() as u32 - 1, |&(_, id)| id),
             details: NONE,
             is_medium: filling.is_some() && is_closed(),
             is_clear,
             is_uneven: is_clear,
-            has_holes: any(|material| material.opacity.is_some()),
+            has_holes,
             is_textured: any(Material::is_textured),
+            has_details: has_holes,
         }
     }
 
@@ -118,9 +122,15 @@ impl Looks {
         (self.details != NONE).then_some(self.details)
     }
 
+    /// True if there is more to say of it than its one material says.
+    #[inline]
+    pub(crate) fn has_details(&self) -> bool {
+        self.has_details
+    }
+
     /// The same, with details.
     pub(super) fn with_details(self, details: Option<u32>) -> Looks {
-        Looks { details: details.unwrap_or(NONE), ..self }
+        Looks { details: details.unwrap_or(NONE), has_details: self.has_holes || details.is_some(), ..self }
     }
 
     /// The class of rays that look for it.

@@ -55,14 +55,15 @@ impl<O: Observer> Path<'_, O> {
             None => self.add(Source::Background, weight * background(&self.scene.background, ray.direction)),
             Some(hit) => {
                 let shading = Shading::at(self.scene, &met.ray, &hit);
-                let Shading { surface, normal, color, opacity, from_outside, .. } = shading;
-                let length = met.length;
+                let Shading { surface, color, opacity, from_outside, .. } = shading;
+                let (length, normal) = (met.length, shading.normal());
                 self.observer.surface(&SurfaceSeen { hit, length, surface, normal, color, opacity, from_outside });
-                if !opacity.is_black() {
-                    self.shade(&shading, weight * opacity);
-                    self.go_on(&shading, depth, weight * opacity);
+                let there = opacity.map_or(weight, |opacity| weight * opacity);
+                if opacity.is_none_or(|opacity| !opacity.is_black()) {
+                    self.shade(&shading, there);
+                    self.go_on(&shading, depth, there);
                 }
-                if opacity != Rgb::WHITE {
+                if let Some(opacity) = opacity {
                     self.go_past(&shading, depth, weight * (Rgb::WHITE - opacity));
                 }
             }
@@ -85,6 +86,7 @@ impl<O: Observer> Path<'_, O> {
     }
 
     /// What the surface gives off, and ambient and direct light that it gives back.
+    #[inline(always)]
     fn shade(&mut self, shading: &Shading<'_>, weight: Rgb) {
         let material = shading.material;
         if !material.emission.is_black() {
@@ -126,6 +128,7 @@ impl<O: Observer> Path<'_, O> {
     }
 
     /// The mirror image, and what lies behind.
+    #[inline(always)]
     fn go_on(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb) {
         let material = shading.material;
         let behind = weight * material.transparency;
@@ -149,7 +152,11 @@ impl<O: Observer> Path<'_, O> {
     }
 
     /// What lies behind where the surface is not there. No medium begins there, but one that the ray is in ends.
+    #[inline(never)]
     fn go_past(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb) {
+        if weight.is_black() {
+            return;
+        }
         let undo = match shading.bounds_medium && !shading.from_outside {
             true => self.media.cross(shading.primitive, false),
             false => Undo::Nothing,
@@ -161,7 +168,7 @@ impl<O: Observer> Path<'_, O> {
     /// How light gets through a surface that it may get through. Only the boundaries of media bend it; a clear sheet has
     /// two such boundaries in the same place.
     fn boundary(&mut self, shading: &Shading<'_>) -> Boundary {
-        let (direction, normal, material) = (shading.direction, shading.normal, shading.material);
+        let (direction, normal, material) = (shading.direction, shading.normal(), shading.material);
         let straight = Boundary { onward: Some(direction), passed: 1.0 };
         let Some(ior) = material.ior.filter(|_| material.is_clear()) else { return straight };
         let before = self.media.ior(self.scene);
