@@ -19,8 +19,8 @@ const ROUNDS: usize = 5;
 
 const SCENES: [&str; 4] = ["terrain", "cave", "soup", "spheres"];
 
-/// How often a program sends each kind of rays in one round.
-const REPEATS: &str = "3";
+/// How often a program sends each kind of rays in one round, beside once to warm up.
+const REPEATS: &str = "1";
 
 /// With this a program builds its tree and sends no ray.
 const BUILD_ONLY: &str = "0";

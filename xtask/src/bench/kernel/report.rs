@@ -49,9 +49,7 @@ pub(super) fn markdown(lines: &Lines, rounds: usize, scenes: &[&str], programs: 
     let has_embree = programs.embree.is_some();
     let mut text = format!("# Rays a second\n\n{}\n{}.\n\n", place()?, versions(lines));
     if !has_embree {
-        text += "Embree is left out, for it was not found: install Embree 4 (`dnf install embree-devel`, `brew install embree`, or a\n\
-                 release of github.com/RenderKit/embree), and name its folders in `EMBREE_INC` (which holds `embree4/rtcore.h`) and\n\
-                 `EMBREE_LIB` if pkg-config does not know them.\n\n";
+        text += ABOUT_EMBREE;
     }
     text += &about(rounds);
     text += "\n## Millions of rays for each second of processor time\n\n";
@@ -62,6 +60,13 @@ pub(super) fn markdown(lines: &Lines, rounds: usize, scenes: &[&str], programs: 
     text += &builds(lines, scenes);
     Ok(text)
 }
+
+const ABOUT_EMBREE: &str = "\
+Embree is left out, for it was not found: install Embree 4 (a package of your system, such as libembree-dev, embree-devel
+or embree, if its version is 4; or a release of github.com/RenderKit/embree). If pkg-config does not know it, name its
+folders in `EMBREE_INC` (which holds `embree4/rtcore.h`) and `EMBREE_LIB`.
+
+";
 
 fn versions(lines: &Lines) -> String {
     let mut versions = vec![format!("durer {}", env!("CARGO_PKG_VERSION"))];
@@ -74,13 +79,13 @@ fn versions(lines: &Lines) -> String {
 
 fn about(rounds: usize) -> String {
     format!(
-        "One thread. Medians of {rounds} rounds in which the programs ran in turn; in each of them, of three passes over about a\n\
-         million rays after one more to warm up (a pass of more than two seconds is not repeated). Scenes and rays are the same\n\
-         to the bit: a million triangles as hills, as a cave and at random in a cube, and a million balls. Secondary rays start\n\
-         where a program's own primary rays hit. Packets are eight rays: in Embree with its flag for coherent rays, for shadows\n\
-         with or without it, whichever is faster; balls are Embree's own points or geometry of the user's, whichever is faster.\n\
-         durer computes in double precision, the others in single. The crates are built for this very processor; durer and Embree\n\
-         find out what it can do. Ratios above 1: durer is faster.\n"
+        "One thread. Medians of {rounds} rounds in which the programs ran in turn, each with one pass over about a million rays\n\
+         of a kind after one more to warm up (unless that takes more than two seconds). Scenes and rays are the same to the\n\
+         bit: a million triangles as hills, as a cave and at random in a cube, and a million balls. Secondary rays start where\n\
+         a program's own primary rays hit. Packets are eight rays: in Embree with its flag for coherent rays, for shadows with\n\
+         or without it, whichever is faster; balls are Embree's own points or geometry of the user's, whichever is faster.\n\
+         durer computes in double precision, the others in single. The crates are built for this very processor; durer and\n\
+         Embree find out what it can do. Ratios above 1: durer is faster.\n"
     )
 }
 
