@@ -9,5 +9,6 @@ pub(crate) mod boxes;
 pub(crate) mod capsules;
 pub(crate) mod frusta;
 pub(crate) mod planes;
+pub(crate) mod memory;
 pub(crate) mod spheres;
 pub(crate) mod triangles;

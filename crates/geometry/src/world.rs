@@ -173,6 +173,7 @@ impl World {
         self.bvh.nearest(
             simd,
             &BoxRay::new(ray),
+            &self.bounded_ids,
             reach,
             watch,
             #[inline(always)]
@@ -213,6 +214,7 @@ impl World {
         self.bvh.nearest(
             simd,
             &boxes,
+            &self.bounded_ids,
             farthest(best),
             &mut (),
             #[inline(always)]
@@ -248,8 +250,8 @@ impl World {
     #[inline(always)]
     fn any_hits_with<S: Simd>(&self, simd: S, packet: &Packet, t_max: &[f64; LANES], mask: u32) -> u32 {
         let mut met = 0;
-        for lane in 0..packet.count() {
-            met |= u32::from(self.meets_plane(simd, &packet.ray(lane), t_max[lane], mask)) << lane;
+        for (lane, &t_max) in t_max.iter().enumerate().take(packet.count()) {
+            met |= u32::from(self.meets_plane(simd, &packet.ray(lane), t_max, mask)) << lane;
         }
         if met != packet.all() && !self.any_together(simd, packet, t_max, mask, &mut met) {
             let missing = packet.all() & !met;
@@ -284,6 +286,7 @@ impl World {
         let found = self.bvh.any(
             simd,
             &boxes,
+            &self.bounded_ids,
             reach,
             #[inline(always)]
             |things| self.bounded_ids[things].iter().any(|&id| test(id)),
@@ -360,6 +363,7 @@ impl World {
         self.bvh.any(
             simd,
             &BoxRay::new(ray),
+            &self.bounded_ids,
             t_max,
             #[inline(always)]
             |things| {

@@ -2,6 +2,7 @@
 
 use super::{Bvh, Child, MAX_DEPTH};
 use crate::simd::boxes::{BoxPacket, BoxRay, Boxes, FAR_SLACK, round_up};
+use crate::simd::memory::prefetch;
 use arrayvec::ArrayVec;
 use fearless_simd::Simd;
 use std::ops::Range;
@@ -53,10 +54,11 @@ impl Bvh {
     /// Calls `test(items)` for the leaves that a ray, or some ray of a packet, may meet before `t_max`, roughly from near to
     /// far; `test` gives the new `t_max`, smaller if something was hit. False if it was given up on the way.
     #[inline(always)]
-    pub(crate) fn nearest<S: Simd, W: Watch>(
+    pub(crate) fn nearest<S: Simd, W: Watch, T>(
         &self,
         simd: S,
         rays: &impl BoxTest<S>,
+        things: &[T],
         t_max: f64,
         watch: &mut W,
         mut test: impl FnMut(Range<usize>, &mut W) -> f64,
@@ -87,6 +89,7 @@ impl Bvh {
                 while hits != 0 {
                     let slot = next(&mut hits);
                     let mut farther = Entry { child: node.children[slot], enter: enter[slot] };
+                    self.fetch(farther.child, things);
                     if farther.enter < nearest.enter {
                         std::mem::swap(&mut nearest, &mut farther);
                     }
@@ -110,10 +113,11 @@ impl Bvh {
     /// Whether `test(items)` is true for some leaf that a ray, or some ray of a packet, may meet before `t_max`; `None` if
     /// the search was given up.
     #[inline(always)]
-    pub(crate) fn any<S: Simd>(
+    pub(crate) fn any<S: Simd, T>(
         &self,
         simd: S,
         rays: &impl BoxTest<S>,
+        things: &[T],
         t_max: f64,
         mut test: impl FnMut(Range<usize>) -> bool,
     ) -> Option<bool> {
@@ -131,7 +135,9 @@ impl Bvh {
             }
             let (mut hits, _) = rays.hits(simd, &node.boxes, t_max);
             while hits != 0 {
-                stack.push(node.children[next(&mut hits)]);
+                let child = node.children[next(&mut hits)];
+                self.fetch(child, things);
+                stack.push(child);
             }
             index = loop {
                 match stack.pop() {
@@ -141,6 +147,18 @@ impl Bvh {
                     Some(_) => {}
                 }
             };
+        }
+    }
+}
+
+impl Bvh {
+    /// Has memory fetch what a child holds, while something else is visited.
+    #[inline(always)]
+    fn fetch<T>(&self, child: Child, things: &[T]) {
+        if child.is_leaf() {
+            prefetch(things, child.items().start);
+        } else {
+            prefetch(&self.nodes, child.index());
         }
     }
 }

@@ -11,6 +11,7 @@ use crate::world::Best;
 use crate::{Bounds, Crossing, Ray};
 use durer_math::{DVec2, DVec3};
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
+use rayon::prelude::*;
 use std::collections::HashMap;
 use std::fmt::Debug;
 use std::sync::{Arc, OnceLock};
@@ -55,12 +56,12 @@ impl Mesh {
     pub(crate) fn build_for(source: Arc<dyn MeshSource>, level: Level) -> Mesh {
         let (positions, triangles) = (source.positions(), source.triangles());
         let corners = |id: usize| triangles[id].map(|vertex| positions[vertex as usize]);
-        let mut items: Vec<build::Item> =
-            (0..triangles.len()).map(|id| build::Item::new(id as u32, bounds_of(corners(id)))).collect();
+        let item = |id: usize| build::Item::new(id as u32, bounds_of(corners(id)));
+        let mut items: Vec<build::Item> = (0..triangles.len()).into_par_iter().map(item).collect();
         let bounds = items.iter().fold(Box32::EMPTY, |all, item| all.union(item.0));
         let leaves = build::Leaves { block: Triangles::COUNT, most: MOST_BLOCKS };
         let mut bvh = build::build(&mut items, leaves, level);
-        let mut blocks = Vec::with_capacity(items.len() / 2);
+        let mut blocks = Vec::with_capacity(bvh.leaves_mut().count());
         for leaf in bvh.leaves_mut() {
             let first = blocks.len();
             for block in items[leaf.items()].chunks(Triangles::COUNT) {
@@ -69,7 +70,6 @@ impl Mesh {
             }
             *leaf = Child::leaf(first, blocks.len() - first);
         }
-        blocks.shrink_to_fit();
         Mesh { bounds: Bounds::from(bounds), bvh, blocks, closed: OnceLock::new(), level, source }
     }
 
@@ -122,6 +122,7 @@ impl Mesh {
         self.bvh.nearest(
             simd,
             &BoxRay::new(ray),
+            &self.blocks,
             t_max,
             watch,
             #[inline(always)]
@@ -148,6 +149,7 @@ impl Mesh {
         self.bvh.any(
             simd,
             &BoxRay::new(ray),
+            &self.blocks,
             f64::INFINITY,
             #[inline(always)]
             |blocks| {
@@ -174,6 +176,7 @@ impl Mesh {
         self.bvh.any(
             simd,
             &BoxRay::new(ray),
+            &self.blocks,
             t_max,
             #[inline(always)]
             |blocks| {
@@ -211,6 +214,7 @@ impl Mesh {
             done = self.bvh.nearest(
                 simd,
                 &boxes,
+                &self.blocks,
                 best.t.reduce_max(),
                 &mut (),
                 #[inline(always)]
@@ -245,6 +249,7 @@ impl Mesh {
             let found = self.bvh.any(
                 simd,
                 &boxes,
+                &self.blocks,
                 reach.reduce_max(),
                 #[inline(always)]
                 |blocks| {

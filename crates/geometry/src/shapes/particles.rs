@@ -287,6 +287,7 @@ fn nearest<S: Simd, W: Watch, P: Particle<N>, const N: usize>(
     bvh.nearest(
         simd,
         &BoxRay::new(ray),
+        blocks,
         t_max,
         watch,
         #[inline(always)]
@@ -320,6 +321,7 @@ fn any<S: Simd, P: Particle<N>, const N: usize>(
     bvh.any(
         simd,
         &BoxRay::new(ray),
+        blocks,
         t_max,
         #[inline(always)]
         |leaf| {
@@ -338,7 +340,7 @@ fn contain<P: Particle<N>, const N: usize>(level: Level, bvh: &Bvh, blocks: &[Bl
     // A ray without a length meets the boxes around its origin.
     let here = Ray { origin: point, direction: DVec3::ONE };
     let in_block = |block: &Block<N>| (0..SLOTS).any(|slot| P::of(block.numbers(slot)).contains(point));
-    dispatch!(level, simd => bvh.any(simd, &BoxRay::new(&here), 0.0, |leaf| blocks[leaf].iter().any(in_block)))
+    dispatch!(level, simd => bvh.any(simd, &BoxRay::new(&here), blocks, 0.0, |leaf| blocks[leaf].iter().any(in_block)))
         == Some(true)
 }
 

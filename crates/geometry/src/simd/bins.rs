@@ -5,7 +5,7 @@
 
 use super::boxes::Box32;
 use crate::bvh::build::Item;
-use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x4, prelude::*};
+use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x4, mask32x8, prelude::*};
 
 /// A box around the centers of items, each taken twice as large so that no halving is needed: least coordinates, a spare
 /// number, greatest coordinates with their signs changed, a spare number.
@@ -132,6 +132,17 @@ impl<S: Simd> Sums<S> {
     }
 
     #[inline(always)]
+    fn add_if(&mut self, simd: S, is_added: bool, item: &Item) {
+        let bounds = f32x8::simd_from(simd, item.0.0);
+        let offered = mask32x8::splat(simd, is_added).select(bounds, f32x8::splat(simd, f32::INFINITY));
+        self.bounds = self.bounds.min(offered);
+        let center = center_of(bounds);
+        let center = center.combine(-center);
+        let offered = mask32x8::splat(simd, is_added).select(center, f32x8::splat(simd, f32::INFINITY));
+        self.centers = self.centers.min(offered);
+    }
+
+    #[inline(always)]
     fn done(self) -> (Box32, Centers) {
         (Box32(self.bounds.into()), Box32(self.centers.into()))
     }
@@ -154,11 +165,11 @@ fn fill_with<S: Simd>(simd: S, bins: &mut Bins, items: &[Item]) {
     for item in items {
         let bounds = f32x8::simd_from(simd, item.0.0);
         let at = bins.scale.bins(simd, center_of(bounds));
-        for axis in 0..3 {
+        for (axis, (boxes, counts)) in bins.boxes.iter_mut().zip(&mut bins.counts).enumerate() {
             let bin = at[axis] as usize & (MOST_BINS - 1);
-            let sum = &mut bins.boxes[axis][bin].0;
+            let sum = &mut boxes[bin].0;
             *sum = f32x8::simd_from(simd, *sum).min(bounds).into();
-            bins.counts[axis][bin] += 1;
+            counts[bin] += 1;
         }
     }
 }
@@ -171,23 +182,17 @@ pub(crate) fn partition(level: Level, items: &mut [Item], cut: &Cut) -> (usize, 
 #[inline(always)]
 fn partition_with<S: Simd>(simd: S, items: &mut [Item], cut: &Cut) -> (usize, [(Box32, Centers); 2]) {
     let (mut left, mut right) = (Sums::new(simd), Sums::new(simd));
-    let is_left = |item: &Item| {
+    let mut start = 0;
+    for index in 0..items.len() {
+        let item = items[index];
         let at = cut.scale.bins(simd, center_of(f32x8::simd_from(simd, item.0.0)));
-        (at[cut.axis & 3] as u32) < cut.bin
-    };
-    let (mut start, mut end) = (0, items.len());
-    loop {
-        while start < end && is_left(&items[start]) {
-            left.add(simd, &items[start]);
-            start += 1;
-        }
-        while start < end && !is_left(&items[end - 1]) {
-            right.add(simd, &items[end - 1]);
-            end -= 1;
-        }
-        if start >= end {
-            return (start, [left.done(), right.done()]);
-        }
-        items.swap(start, end - 1);
+        let is_left = (at[cut.axis & 3] as u32) < cut.bin;
+        // Every item is swapped and offered to both sides, since no processor can guess to which one the next belongs.
+        items[index] = items[start];
+        items[start] = item;
+        start += usize::from(is_left);
+        left.add_if(simd, is_left, &item);
+        right.add_if(simd, !is_left, &item);
     }
+    (start, [left.done(), right.done()])
 }

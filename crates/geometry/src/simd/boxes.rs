@@ -93,7 +93,7 @@ impl BoxRay {
         for axis in 0..3 {
             let direction = direction[axis] as f32;
             // A finite stand-in for 1/0 keeps 0 · ∞ out; the ray then leaves the slab practically never.
-            out.inverse[axis] = (1.0 / direction).max(-f32::MAX).min(f32::MAX);
+            out.inverse[axis] = (1.0 / direction).clamp(-f32::MAX, f32::MAX);
             out.near[axis] = usize::from(direction.is_sign_negative());
             // Rounded towards where the ray goes it is nearer to what lies ahead, and against it farther.
             let nearest = origin[axis] as f32;
@@ -147,7 +147,7 @@ impl BoxPacket {
             for lane in 0..LANES {
                 let (origin, direction) = (packet.origin[axis][lane], packet.direction[axis][lane] as f32);
                 (low, high) = (low.min(origin), high.max(origin));
-                let inverse = (1.0 / direction).max(-f32::MAX).min(f32::MAX);
+                let inverse = (1.0 / direction).clamp(-f32::MAX, f32::MAX);
                 (least, greatest) = (least.min(inverse), greatest.max(inverse));
                 backward += usize::from(direction.is_sign_negative());
             }

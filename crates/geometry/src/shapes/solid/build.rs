@@ -19,6 +19,7 @@ pub enum Operation {
 
 /// What a solid is made of. Without operands nothing is inside.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "built once, mostly of shapes; a box for each would only cost words")]
 pub enum Operand {
     /// A closed shape; others count as empty.
     Shape(Primitive),

@@ -80,7 +80,6 @@ fn volumes_are_those_of_the_books() {
     for (name, operand, expected) in known {
         let solid = solid(operand);
         let (by_rays, by_points) = (volume(&solid, 3.0, 600), volume_by_points(&solid, 3.0));
-        println!("{name}: {expected} expected, {by_rays} by rays, {by_points} by points");
         assert!((by_rays - expected).abs() < 1e-3 * expected, "{name}: {by_rays}, expected {expected}");
         assert!((by_points - expected).abs() < 0.05 * expected, "{name}: {by_points}, expected {expected}");
     }
