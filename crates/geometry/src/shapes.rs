@@ -16,7 +16,7 @@ pub(crate) mod solid;
 mod span;
 pub(crate) mod sphere;
 #[cfg(test)]
-mod testing;
+pub(crate) mod testing;
 pub(crate) mod torus;
 pub(crate) mod triangle;
 

@@ -8,7 +8,7 @@ pub(crate) mod blocks;
 pub(crate) mod boxes;
 pub(crate) mod capsules;
 pub(crate) mod frusta;
-pub(crate) mod planes;
 pub(crate) mod memory;
+pub(crate) mod planes;
 pub(crate) mod spheres;
 pub(crate) mod triangles;

@@ -78,6 +78,8 @@ impl Bvh {
                 if patience.ends() {
                     return false;
                 }
+                // Which child is next will be known late: its number should be at hand by then.
+                prefetch(&node.children, 0);
                 let (mut hits, enter) = rays.hits(simd, &node.boxes, t_max);
                 if hits == 0 {
                     at = Child::NONE;

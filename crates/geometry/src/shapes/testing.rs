@@ -7,11 +7,11 @@ use durer_math::DVec3;
 use durer_math::functions::pow;
 
 /// A number generator for tests (SplitMix64).
-pub(super) struct Random(pub(super) u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     /// Uniform in [low, high).
-    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -20,16 +20,16 @@ impl Random {
     }
 
     /// A power of ten with uniform exponent.
-    pub(super) fn power(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn power(&mut self, low: f64, high: f64) -> f64 {
         f64::from(pow(10.0, self.between(low, high) as f32))
     }
 
     /// Uniform in the cube from -1 to 1.
-    pub(super) fn in_cube(&mut self) -> DVec3 {
+    pub(crate) fn in_cube(&mut self) -> DVec3 {
         DVec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0))
     }
 
-    pub(super) fn direction(&mut self) -> DVec3 {
+    pub(crate) fn direction(&mut self) -> DVec3 {
         loop {
             let v = self.in_cube();
             if v.length_squared() > 0.01 && v.length_squared() < 1.0 {
@@ -44,7 +44,7 @@ impl Random {
     }
 
     /// A ray in the neighborhood of the origin; one in three on the lattice or parallel to a coordinate plane.
-    pub(super) fn ray(&mut self) -> Ray {
+    pub(crate) fn ray(&mut self) -> Ray {
         let origin = self.in_cube() * 3.0;
         let direction = (self.in_cube() - origin).normalize();
         let (o, d) = (self.lattice(), self.lattice());

@@ -235,3 +235,39 @@ fn equal_centers_make_no_endless_tree() {
     let ray = Ray { origin: DVec3::new(0.2, 0.2, 1.0), direction: DVec3::NEG_Z };
     assert_eq!(mesh.intersect(&ray, 2.0), Some(Crossing { t: 1.0, part: 0 }));
 }
+
+/// A flat square of triangles whose corners have whole coordinates, seen along its normal.
+fn tiles(half: i32) -> Lists {
+    let row = 2 * half + 1;
+    let positions = (0..row * row).map(|i| [(i % row - half) as f32, (i / row - half) as f32, 2.0]).collect();
+    let corner = |x: i32, y: i32| (y * row + x) as u32;
+    let tile = |x: i32, y: i32| {
+        let [a, b, c, d] = [corner(x, y), corner(x + 1, y), corner(x, y + 1), corner(x + 1, y + 1)];
+        [[a, b, c], [c, b, d]]
+    };
+    let triangles = (0..2 * half).flat_map(|y| (0..2 * half).flat_map(move |x| tile(x, y))).collect();
+    Lists { positions, triangles }
+}
+
+#[test]
+fn rays_in_the_planes_between_boxes_meet_the_edges_there() {
+    let lists: Arc<dyn MeshSource> = Arc::new(tiles(20));
+    for level in levels() {
+        let mesh = Mesh::build_for(Arc::clone(&lists), level);
+        for (x, y) in (-19..20).flat_map(|x| (-19..20).map(move |y| (f64::from(x), f64::from(y)))) {
+            for (sign, distance) in [(1.0, 2.0), (-1.0, 7.0)] {
+                let origin = DVec3::new(x, y, if sign > 0.0 { 0.0 } else { 9.0 });
+                for aside in [0.0, -0.0, 0.5] {
+                    let ray = Ray { origin: origin + DVec3::X * aside, direction: DVec3::new(aside * 0.0, 0.0, sign) };
+                    assert_eq!(mesh.intersect(&ray, 1e9).map(|hit| hit.t), Some(distance), "{ray:?}");
+                    assert!(mesh.meets(&ray, 1e9), "{ray:?}");
+                    let mut hits = PacketHits { t: [1e9; LANES], part: [-1.0; LANES] };
+                    let packet = Packet::new(&[ray; 5]);
+                    mesh.intersect_packet(&packet, &mut hits);
+                    assert_eq!(hits.t[..5], [distance; 5], "{ray:?}");
+                    assert_eq!(mesh.meets_packet(&packet, &[1e9; LANES]), 0b11111, "{ray:?}");
+                }
+            }
+        }
+    }
+}
