@@ -5,7 +5,7 @@ use clap::builder::RangedI64ValueParser;
 use clap::{Args, ValueEnum};
 use durer::CheckedScene;
 use durer::imaging::Transfer;
-use durer::scene::{Antialias, Picture, Problem, Scene, Step};
+use durer::scene::{Antialias, Picture, Problem, Scene, Step, Trees};
 
 /// Settings that win over those of the scene file.
 #[derive(Args, Debug, Default)]
@@ -21,6 +21,10 @@ pub(crate) struct Overrides {
     /// Rays in a pixel: `none`, `grid:N` (N × N) or `recursive[:THRESHOLD[,DEPTH]]`
     #[arg(long, value_name = "HOW", value_parser = antialias, allow_hyphen_values = true)]
     antialias: Option<Antialias>,
+
+    /// What the trees in which rays search are built for; the picture is the same
+    #[arg(long, value_name = "PURPOSE")]
+    trees: Option<TreesArg>,
 
     /// How light becomes the numbers of a PNG or JPEG
     #[arg(long, value_name = "CURVE")]
@@ -49,6 +53,18 @@ enum TransferArg {
     Linear,
 }
 
+/// [`Trees`] by its words in scene files.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum TreesArg {
+    /// A first look: built in the least time
+    Preview,
+    /// A picture with some rays a pixel
+    Picture,
+    /// Very many rays: built for the fastest search
+    #[value(name = "many_rays", alias = "many-rays")]
+    ManyRays,
+}
+
 impl Overrides {
     /// The scene with these settings in place of its own.
     pub(crate) fn apply(&self, scene: CheckedScene) -> Result<CheckedScene, Failure> {
@@ -62,6 +78,12 @@ impl Overrides {
         (picture.width, picture.height) = self.size.of(picture);
         render.max_depth = self.max_depth.unwrap_or(render.max_depth);
         render.antialias = self.antialias.unwrap_or(render.antialias);
+        render.trees = match self.trees {
+            Some(TreesArg::Preview) => Trees::Preview,
+            Some(TreesArg::Picture) => Trees::Picture,
+            Some(TreesArg::ManyRays) => Trees::ManyRays,
+            None => render.trees,
+        };
         picture.transfer = match self.transfer {
             Some(TransferArg::Srgb) => Transfer::Srgb,
             Some(TransferArg::Linear) => Transfer::Linear,

@@ -63,8 +63,11 @@ pub trait Kernel {
 /// A run that takes longer than this is neither warmed up nor repeated.
 const LONG: f64 = 2.0;
 
-/// Measures all kinds of rays, each `repeats` times, and prints the medians.
+/// Measures all kinds of rays, each `repeats` times, and prints the medians; none if that is 0.
 pub fn all(lines: Lines<'_>, scene: &Scene, kernel: &impl Kernel, repeats: usize) {
+    if repeats == 0 {
+        return;
+    }
     let primary = scene.view.primary(PICTURE);
     let single = |rays: &[Ray]| Some(kernel.all_closest(rays));
     let packets = |rays: &[Ray]| kernel.packets_closest(rays);

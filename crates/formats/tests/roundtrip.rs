@@ -263,10 +263,9 @@ fn settings() -> BoxedStrategy<Scene> {
     ];
     let picture = (1_u32..9999, 1_u32..9999, prop::sample::select(vec![Transfer::Srgb, Transfer::Linear]))
         .prop_map(|(width, height, transfer)| Picture { width, height, transfer });
-    let render = (1_u32..=20, part(), antialias).prop_map(|(max_depth, min_weight, antialias)| RenderSettings {
-        max_depth,
-        min_weight,
-        antialias,
+    let trees = prop::sample::select(vec![Trees::Preview, Trees::Picture, Trees::ManyRays]);
+    let render = (1_u32..=20, part(), antialias, trees).prop_map(|(max_depth, min_weight, antialias, trees)| {
+        RenderSettings { max_depth, min_weight, antialias, trees }
     });
     let background = prop_oneof![
         color().prop_map(Background::Color),

@@ -14,6 +14,7 @@ mod vantage;
 mod world;
 
 pub use bounds::Bounds;
+pub use bvh::build::BuildFor;
 pub use bvh::traverse::Work;
 pub use packet::{LANES, Packet, PacketHits};
 pub use primitive::{Primitive, Surface};

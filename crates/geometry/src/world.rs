@@ -1,7 +1,7 @@
 //! All primitives of a scene, ready for rays.
 
 use crate::bvh::Bvh;
-use crate::bvh::build::{Item, Leaves, build};
+use crate::bvh::build::{BuildFor, Item, Leaves, Plan, build};
 use crate::bvh::traverse::Watch;
 use crate::packet::{LANES, Packet, PacketHits};
 use crate::simd::boxes::{Box32, BoxPacket, BoxRay};
@@ -26,6 +26,9 @@ pub struct World {
     level: Level,
 }
 
+/// Primitives are tested one by one.
+const LEAVES: Leaves = Leaves { block: 1, most: 1, fuller_for: BuildFor::ManyRays };
+
 /// Where a ray meets the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
@@ -37,18 +40,18 @@ pub struct Hit {
 
 impl World {
     /// Builds the search structures, for the best instruction set of this machine.
-    pub fn build(primitives: Vec<Primitive>) -> World {
-        World::build_for(primitives, Level::new())
+    pub fn build(primitives: Vec<Primitive>, purpose: BuildFor) -> World {
+        World::build_as(primitives, Plan::new(purpose))
     }
 
-    fn build_for(primitives: Vec<Primitive>, level: Level) -> World {
+    fn build_as(primitives: Vec<Primitive>, plan: Plan) -> World {
         let ids = 0..primitives.len() as u32;
         let is_plane = |&id: &u32| primitives[id as usize].as_plane().is_some();
         let (plane_ids, bounded_ids): (Vec<u32>, Vec<u32>) = ids.partition(is_plane);
         let boxes: Vec<Bounds> = bounded_ids.iter().map(|&id| primitives[id as usize].bounds()).collect();
         let numbered = bounded_ids.iter().zip(&boxes);
         let mut items: Vec<Item> = numbered.map(|(&id, bounds)| Item::new(id, Box32::around(bounds))).collect();
-        let bvh = build(&mut items, Leaves { block: 1, most: 1 }, level);
+        let bvh = build(&mut items, LEAVES, plan);
         let bounded_ids = items.iter().map(Item::number).collect();
         let mut planes = vec![Planes::EMPTY; plane_ids.len().div_ceil(4)];
         for (i, &id) in plane_ids.iter().enumerate() {
@@ -57,7 +60,7 @@ impl World {
             }
         }
         let bounds = boxes.iter().copied().fold(Bounds::EMPTY, Bounds::union);
-        World { bvh, planes, bounded_ids, bounds, level, primitives }
+        World { bvh, planes, bounded_ids, bounds, level: plan.level, primitives }
     }
 
     /// The primitives, in the order they were given.

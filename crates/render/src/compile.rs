@@ -14,9 +14,9 @@ use crate::lights::Light;
 use crate::materials::Material;
 use crate::textures::Textures;
 use contents::Contents;
-use durer_geometry::{Bounds, Hit, Primitive, Vantage, World};
+use durer_geometry::{Bounds, BuildFor, Hit, Primitive, Vantage, World};
 use durer_math::Rgb;
-use durer_scene::{Background, CheckedScene, Picture, RenderSettings, Scene};
+use durer_scene::{Background, CheckedScene, Picture, RenderSettings, Scene, Trees};
 use imports::Brought;
 use looks::Looks;
 use rayon::prelude::*;
@@ -85,15 +85,15 @@ impl GeometryMemory {
 /// it is called in (see [`with_threads`](crate::with_threads)); what it makes does not depend on their number.
 pub fn compile(scene: &CheckedScene) -> CompiledScene {
     let scene = scene.scene();
-    let materials = materials(scene);
-    let contents = Contents::of(&scene.objects);
+    let (materials, purpose) = (materials(scene), purpose(scene.render.trees));
+    let contents = Contents::of(&scene.objects, purpose);
     let tree = Tree::new(&scene.objects, &contents, &materials);
     let (mut primitives, mut objects): (Vec<Primitive>, Vec<PlacedObject>) = (Vec::new(), Vec::new());
     (0..tree.len()).into_par_iter().map(|index| tree.place(index)).unzip_into_vecs(&mut primitives, &mut objects);
     let mut shared = contents.memory();
     tree.add_memory(&mut shared);
     let details = tree.details;
-    let world = World::build(primitives);
+    let world = World::build(primitives, purpose);
     let brought = Brought::by(&scene.objects);
     let lights: Vec<Light> = scene.lights.iter().chain(&brought.lights).map(Light::compile).collect();
     let Picture { width, height, .. } = scene.picture;
@@ -119,6 +119,14 @@ pub fn compile(scene: &CheckedScene) -> CompiledScene {
         fog: scene.fog.as_ref().map(Fog::compile),
         picture: scene.picture,
         settings: scene.render,
+    }
+}
+
+fn purpose(trees: Trees) -> BuildFor {
+    match trees {
+        Trees::Preview => BuildFor::Preview,
+        Trees::Picture => BuildFor::Picture,
+        Trees::ManyRays => BuildFor::ManyRays,
     }
 }
 

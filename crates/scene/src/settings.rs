@@ -29,12 +29,26 @@ pub struct RenderSettings {
     pub min_weight: f32,
     /// Where in a pixel rays are sent, and how many.
     pub antialias: Antialias,
+    /// What the search trees are built for. The picture is the same.
+    pub trees: Trees,
 }
 
 impl Default for RenderSettings {
     fn default() -> RenderSettings {
-        RenderSettings { max_depth: 5, min_weight: 0.001, antialias: Antialias::default() }
+        RenderSettings { max_depth: 5, min_weight: 0.001, antialias: Antialias::default(), trees: Trees::default() }
     }
+}
+
+/// What the trees in which rays search are built for: more time for building makes each ray faster.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Trees {
+    /// A first look: built in the least time.
+    Preview,
+    /// A picture with some rays a pixel.
+    #[default]
+    Picture,
+    /// Very many rays: built for the fastest search.
+    ManyRays,
 }
 
 /// Where in a pixel rays are sent, and how many.

@@ -44,7 +44,8 @@ pub(crate) fn run(options: &Options<'_>) -> Result<(), String> {
 
 /// What is run in turn for one scene.
 fn commands(programs: &Programs, scene: &str) -> Vec<Command> {
-    let durer = command(&programs.durer, &[scene, REPEATS]);
+    let purposes = [("preview", BUILD_ONLY), ("picture", REPEATS), ("many-rays", REPEATS)];
+    let durer = purposes.map(|(purpose, repeats)| command(&programs.durer, &[scene, repeats, purpose]));
     let embree = programs.embree.iter().flat_map(|path| embree(path, scene));
     let crates = [
         ["obvhs-fast", scene, BUILD_ONLY],
@@ -52,7 +53,7 @@ fn commands(programs: &Programs, scene: &str) -> Vec<Command> {
         ["obvhs-very-slow", scene, BUILD_ONLY],
         ["bvh", scene, REPEATS],
     ];
-    [durer].into_iter().chain(embree).chain(crates.map(|words| command(&programs.crates, &words))).collect()
+    durer.into_iter().chain(embree).chain(crates.map(|words| command(&programs.crates, &words))).collect()
 }
 
 fn embree(path: &Path, scene: &str) -> Vec<Command> {

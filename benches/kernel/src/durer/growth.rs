@@ -7,7 +7,7 @@ use durer_bench_kernel::random::Random;
 use durer_bench_kernel::rays::{INTO_CUBE, OVER_TERRAIN, Ray, View, bounce};
 use durer_bench_kernel::scene::PICTURE;
 use durer_bench_kernel::vector::Vector;
-use durer_geometry::{Mesh, Particles, Primitive, World};
+use durer_geometry::{BuildFor, Mesh, Particles, Primitive, World};
 use durer_math::functions::cbrt;
 use durer_math::{DAffine3, DMat3, DVec3, rotation};
 use std::f64::consts::TAU;
@@ -25,7 +25,7 @@ pub(crate) fn measure(kind: &str, count: usize, repeats: usize) -> Result<(), St
             let lists = Arc::new(Lists(meshes::terrain(side)));
             let triangles = lists.0.triangles.len();
             report(kind, triangles, repeats, OVER_TERRAIN, || {
-                let mesh = Mesh::build(Arc::clone(&lists) as _);
+                let mesh = Mesh::build(Arc::clone(&lists) as _, BuildFor::Picture);
                 let bytes = mesh.memory();
                 (vec![Primitive::mesh(Arc::new(mesh), DVec3::ZERO, &DAffine3::IDENTITY)], bytes)
             });
@@ -33,13 +33,13 @@ pub(crate) fn measure(kind: &str, count: usize, repeats: usize) -> Result<(), St
         "spheres" => {
             let spheres = balls(count);
             report(kind, count, repeats, INTO_CUBE, || {
-                let particles = Particles::spheres(count, |index| spheres[index]);
+                let particles = Particles::spheres(count, BuildFor::Picture, |index| spheres[index]);
                 let bytes = particles.memory();
                 (vec![Primitive::particles(Arc::new(particles), &DAffine3::IDENTITY)], bytes)
             });
         }
         "instances" => {
-            let (places, rock) = (places(count), Arc::new(Mesh::build(Arc::new(Lists(meshes::cave(ROCK))))));
+            let (places, rock) = (places(count), Arc::new(Mesh::build(Arc::new(Lists(meshes::cave(ROCK))), BuildFor::Picture)));
             report(kind, count, repeats, INTO_CUBE, || {
                 let copy = |place| Primitive::mesh(Arc::clone(&rock), DVec3::ZERO, place);
                 (places.iter().map(copy).collect(), rock.memory())
@@ -71,7 +71,7 @@ fn places(count: usize) -> Vec<DAffine3> {
 fn report(kind: &str, count: usize, repeats: usize, view: View, make: impl Fn() -> (Vec<Primitive>, usize)) {
     let (seconds, (world, shared)) = measure::build(repeats, || {
         let (primitives, shared) = make();
-        (World::build(primitives), shared)
+        (World::build(primitives, BuildFor::Picture), shared)
     });
     let bytes = world.memory() + shared;
     let primary = view.primary(PICTURE);

@@ -5,7 +5,7 @@ use durer_bench_kernel::meshes;
 use durer_bench_kernel::print::Lines;
 use durer_bench_kernel::rays::Ray;
 use durer_bench_kernel::scene::{Scene, Things};
-use durer_geometry::{LANES, Mesh, MeshSource, Packet, Particles, Primitive, World};
+use durer_geometry::{BuildFor, LANES, Mesh, MeshSource, Packet, Particles, Primitive, World};
 use durer_math::{DAffine3, DVec3};
 use std::sync::Arc;
 
@@ -35,37 +35,44 @@ impl MeshSource for Lists {
 }
 
 /// Builds a scene and measures it.
-pub(crate) fn measure(scene: &Scene, repeats: usize) {
-    let lines = Lines { program: "durer", variant: "", scene: &scene.name };
+pub(crate) fn measure(scene: &Scene, repeats: usize, purpose: &str) -> Result<(), String> {
+    let lines = Lines { program: "durer", variant: purpose, scene: &scene.name };
+    let purpose = match purpose {
+        "preview" => BuildFor::Preview,
+        "picture" => BuildFor::Picture,
+        "many-rays" => BuildFor::ManyRays,
+        _ => return Err(format!("there is no purpose `{purpose}`")),
+    };
     lines.scene(scene.count(), &scene.hashes());
     let kernel = match &scene.things {
-        Things::Triangles(mesh) => mesh_kernel(lines, mesh, repeats),
-        Things::Spheres(spheres) => sphere_kernel(lines, spheres, repeats),
+        Things::Triangles(mesh) => mesh_kernel(lines, mesh, repeats, purpose),
+        Things::Spheres(spheres) => sphere_kernel(lines, spheres, repeats, purpose),
     };
     measure::all(lines, scene, &kernel, repeats);
+    Ok(())
 }
 
-fn mesh_kernel(lines: Lines<'_>, mesh: &meshes::Mesh, repeats: usize) -> Built {
+fn mesh_kernel(lines: Lines<'_>, mesh: &meshes::Mesh, repeats: usize, purpose: BuildFor) -> Built {
     let lists = Arc::new(Lists(mesh.clone()));
     let source = || Arc::clone(&lists) as Arc<dyn MeshSource>;
-    let (seconds, built) = measure::build(repeats, || Mesh::build(source()));
+    let (seconds, built) = measure::build(repeats, || Mesh::build(source(), purpose));
     let list_bytes = size_of_val(mesh.positions.as_slice()) + size_of_val(mesh.triangles.as_slice());
     lines.build(seconds, built.memory(), list_bytes);
     let primitive = Primitive::mesh(Arc::new(built), DVec3::ZERO, &DAffine3::IDENTITY);
-    Built { world: World::build(vec![primitive]), particles: None }
+    Built { world: World::build(vec![primitive], purpose), particles: None }
 }
 
-fn sphere_kernel(lines: Lines<'_>, spheres: &[[f32; 4]], repeats: usize) -> Built {
+fn sphere_kernel(lines: Lines<'_>, spheres: &[[f32; 4]], repeats: usize, purpose: BuildFor) -> Built {
     let sphere = |index: usize| {
         let [x, y, z, radius] = spheres[index].map(f64::from);
         (DVec3::new(x, y, z), radius)
     };
-    let (seconds, built) = measure::build(repeats, || Particles::spheres(spheres.len(), sphere));
+    let (seconds, built) = measure::build(repeats, || Particles::spheres(spheres.len(), purpose, sphere));
     // What it has is in its own blocks: it needs no list beside them.
     lines.build(seconds, built.memory(), 0);
     let built = Arc::new(built);
     let primitive = Primitive::particles(Arc::clone(&built), &DAffine3::IDENTITY);
-    Built { world: World::build(vec![primitive]), particles: Some(built) }
+    Built { world: World::build(vec![primitive], purpose), particles: Some(built) }
 }
 
 /// A world, ready for rays.

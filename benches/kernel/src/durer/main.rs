@@ -7,7 +7,7 @@ use durer_bench_kernel::scene::Scene;
 use std::process::ExitCode;
 
 const USAGE: &str = "\
-usage: kernel-durer SCENE REPEATS          SCENE: terrain, cave, soup, spheres
+usage: kernel-durer SCENE REPEATS PURPOSE    SCENE: terrain, cave, soup, spheres; PURPOSE: preview, picture, many-rays
        kernel-durer grow KIND COUNT REPEATS  KIND: triangles, spheres, instances";
 
 fn main() -> ExitCode {
@@ -28,10 +28,7 @@ fn run(words: &[&str]) -> Result<(), String> {
     let number = |word: &str| word.parse::<usize>().map_err(|_| format!("`{word}` is not a number"));
     match words {
         ["grow", kind, count, repeats] => growth::measure(kind, number(count)?, number(repeats)?),
-        [scene, repeats] => {
-            kernel::measure(&Scene::named(scene)?, number(repeats)?);
-            Ok(())
-        }
+        [scene, repeats, purpose] => kernel::measure(&Scene::named(scene)?, number(repeats)?, purpose),
         _ => Err(USAGE.to_owned()),
     }
 }

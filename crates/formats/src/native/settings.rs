@@ -9,7 +9,7 @@ use super::value::{Value, number_text};
 use super::write::{FieldsOut, Out, Writer};
 use durer_imaging::Transfer;
 use durer_math::Rgb;
-use durer_scene::{Antialias, Background, Fog, Picture, RenderSettings};
+use durer_scene::{Antialias, Background, Fog, Picture, RenderSettings, Trees};
 use serde_json::{Value as Json, json};
 use std::rc::Rc;
 
@@ -31,8 +31,16 @@ record!(RenderSettings {
         => "Longest chain of rays: the eye's ray has depth 1, and rays deeper than this are black; 1 to 100.";
     min_weight: f32 = 0.001 => "Rays that count less than this in the pixel are not traced; 0 traces all.";
     antialias: Antialias = Antialias::default() => "Where in a pixel rays are sent, and how many.";
+    trees: Trees = Trees::Picture => "What the trees in which rays search are built for; the picture is the same.";
 });
 record_value!(RenderSettings, "render", RenderSettings::default());
+
+choice! { Trees, "trees";
+    Preview "preview": "A first look: built in the least time.", example "trees: preview", {}
+    Picture "picture": "A picture with some rays a pixel.", example "trees: picture", {}
+    ManyRays "many_rays": "Very many rays: built for the fastest search.", example "trees: many_rays", {}
+}
+choice_value!(Trees, Trees::Picture);
 
 choice! { Antialias, "antialias";
     None "none": "One ray through the middle of each pixel.", example "antialias: none", {}

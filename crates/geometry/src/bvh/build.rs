@@ -4,6 +4,7 @@
 //! Items are sorted in place. Large parts are built side by side by several threads; each part is built alike whoever
 //! does it, so the tree is the same for any number of threads.
 
+use super::merge::merge;
 use super::{Bvh, Child, MAX_DEPTH, MAX_LEAF, Node};
 use crate::simd::bins::{Bins, Centers, Cut, fill, measure, partition};
 use crate::simd::boxes::{Box32, Boxes};
@@ -38,6 +39,41 @@ pub(crate) struct Leaves {
     pub(crate) block: usize,
     /// The most blocks in a leaf.
     pub(crate) most: usize,
+    /// The least purpose for which it pays to make nodes fuller in the end.
+    pub(crate) fuller_for: BuildFor,
+}
+
+/// What trees are built for. It changes how long building and tracing take, and never what a ray finds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum BuildFor {
+    /// A first look, with few rays: built in the least time.
+    Preview,
+    /// A picture with some rays a pixel.
+    #[default]
+    Picture,
+    /// Very many rays: built for the fastest search.
+    ManyRays,
+}
+
+/// How trees are built.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plan {
+    pub(crate) level: Level,
+    pub(crate) purpose: BuildFor,
+}
+
+impl Plan {
+    /// With the best instruction set of this machine.
+    pub(crate) fn new(purpose: BuildFor) -> Plan {
+        Plan { level: Level::new(), purpose }
+    }
+}
+
+#[cfg(test)]
+impl From<Level> for Plan {
+    fn from(level: Level) -> Plan {
+        Plan { level, purpose: BuildFor::default() }
+    }
 }
 
 /// Parts with fewer items are not worth a thread.
@@ -55,20 +91,24 @@ struct Part {
 }
 
 /// Builds a tree over items, which are brought into the order of the leaves.
-pub(crate) fn build(items: &mut [Item], leaves: Leaves, level: Level) -> Bvh {
+pub(crate) fn build(items: &mut [Item], leaves: Leaves, plan: Plan) -> Bvh {
     debug_assert!(leaves.most <= MAX_LEAF);
     let mut nodes = Vec::new();
     if !items.is_empty() {
-        let (bounds, centers) = measure(level, items);
+        let (bounds, centers) = measure(plan.level, items);
         let all = Part { start: 0, end: items.len(), bounds, centers, whole: false };
-        Builder { leaves, level }.node(items, 0, all, 1, &mut nodes);
+        Builder { leaves, plan }.node(items, 0, all, 1, &mut nodes);
     }
-    Bvh { nodes }
+    let mut bvh = Bvh { nodes };
+    if plan.purpose >= leaves.fuller_for {
+        merge(&mut bvh, items);
+    }
+    bvh
 }
 
 struct Builder {
     leaves: Leaves,
-    level: Level,
+    plan: Plan,
 }
 
 impl Builder {
@@ -162,22 +202,22 @@ impl Builder {
         match cut {
             Some(cut) if blocks <= self.leaves.most && blocks as f32 * part.bounds.half_area() <= cut.cost => None,
             Some(cut) => {
-                let (middle, sides) = partition(self.level, items, &cut);
+                let (middle, sides) = partition(self.plan.level, items, &cut);
                 divided(middle, sides)
             }
             None if blocks <= self.leaves.most && !must_halve(depth) => None,
             None => {
                 let middle = halve(items, &part.centers);
                 let (left, right) = items.split_at(middle);
-                divided(middle, [measure(self.level, left), measure(self.level, right)])
+                divided(middle, [measure(self.plan.level, left), measure(self.plan.level, right)])
             }
         }
     }
 
     /// The cut with the least expected cost, if any divides the items.
     fn best_cut(&self, items: &[Item], part: &Part) -> Option<Cut> {
-        let mut bins = Bins::new(items.len(), &part.centers);
-        fill(self.level, &mut bins, items);
+        let mut bins = Bins::new(items.len(), &part.centers, self.plan.purpose);
+        fill(self.plan.level, &mut bins, items);
         bins.best_cut(self.leaves.block, part.bounds.half_area())
     }
 
@@ -208,7 +248,7 @@ fn must_halve(depth: usize) -> bool {
     depth + 12 >= MAX_DEPTH
 }
 
-fn longest_axis(centers: &Centers) -> usize {
+pub(crate) fn longest_axis(centers: &Centers) -> usize {
     let extent = |axis: usize| -centers.0[axis + 4] - centers.0[axis];
     (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0)
 }

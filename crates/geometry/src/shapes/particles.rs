@@ -10,8 +10,7 @@ mod capsule;
 mod frustum;
 
 use super::Shape;
-use crate::bvh::build::{Item, Leaves, build};
-use crate::bvh::merge::merge;
+use crate::bvh::build::{BuildFor, Item, Leaves, Plan, build};
 use crate::bvh::traverse::{Watch, Work};
 use crate::bvh::{Bvh, Child, MAX_ITEMS};
 use crate::simd::blocks::{Block, Hits, SLOTS, WideRay};
@@ -93,9 +92,9 @@ pub struct Particles {
 }
 
 /// Where a test takes longer than that of a box, a leaf has one block if it can.
-const SMALL_LEAVES: Leaves = Leaves { block: SLOTS, most: 2 };
+const SMALL_LEAVES: Leaves = Leaves { block: SLOTS, most: 2, fuller_for: BuildFor::Picture };
 /// Where it does not, fewer nodes are better.
-const LARGE_LEAVES: Leaves = Leaves { block: 2 * SLOTS, most: 1 };
+const LARGE_LEAVES: Leaves = Leaves { block: 2 * SLOTS, most: 1, fuller_for: BuildFor::Picture };
 
 /// The constructors ask for each particle by its number, some of them several times, and build the tree with as many
 /// threads as the current pool has. Numbers are rounded to single precision, places relative to [`Particles::origin`].
@@ -104,34 +103,39 @@ impl Particles {
     pub const MOST: usize = MAX_ITEMS;
 
     /// Balls, each with its center and radius.
-    pub fn spheres(count: usize, sphere: impl Fn(usize) -> (DVec3, f64) + Sync) -> Particles {
-        Particles::spheres_for(Level::new(), count, sphere)
+    pub fn spheres(count: usize, purpose: BuildFor, sphere: impl Fn(usize) -> (DVec3, f64) + Sync) -> Particles {
+        Particles::spheres_as(Plan::new(purpose), count, sphere)
     }
 
     /// Frusta, each between the middles of its base and its top, with the radii there, of which one may be 0. Those whose
     /// ends are the same point in single precision are not there.
-    pub fn frusta(count: usize, open: bool, frustum: impl Fn(usize) -> ([DVec3; 2], [f64; 2]) + Sync) -> Particles {
-        Particles::frusta_for(Level::new(), count, open, frustum)
+    pub fn frusta(
+        count: usize,
+        open: bool,
+        purpose: BuildFor,
+        frustum: impl Fn(usize) -> ([DVec3; 2], [f64; 2]) + Sync,
+    ) -> Particles {
+        Particles::frusta_as(Plan::new(purpose), count, open, frustum)
     }
 
     /// Capsules, each with the centers of its half balls and their radius.
-    pub fn capsules(count: usize, capsule: impl Fn(usize) -> ([DVec3; 2], f64) + Sync) -> Particles {
-        Particles::capsules_for(Level::new(), count, capsule)
+    pub fn capsules(count: usize, purpose: BuildFor, capsule: impl Fn(usize) -> ([DVec3; 2], f64) + Sync) -> Particles {
+        Particles::capsules_as(Plan::new(purpose), count, capsule)
     }
 
-    pub(crate) fn spheres_for(level: Level, count: usize, sphere: impl Fn(usize) -> (DVec3, f64) + Sync) -> Particles {
+    pub(crate) fn spheres_as(plan: Plan, count: usize, sphere: impl Fn(usize) -> (DVec3, f64) + Sync) -> Particles {
         let origin = origin_for((0..count).map(|index| sphere(index).0));
         let numbers = |index: usize| {
             let (center, radius) = sphere(index);
             let [x, y, z] = narrow(center - origin);
             [x, y, z, radius as f32]
         };
-        let (bvh, blocks, bounds) = plant::<Ball, _>(count, numbers, level);
-        Particles { origin, bvh, blocks: Blocks::Spheres(blocks), bounds, level }
+        let (bvh, blocks, bounds) = plant::<Ball, _>(count, numbers, plan);
+        Particles { origin, bvh, blocks: Blocks::Spheres(blocks), bounds, level: plan.level }
     }
 
-    pub(crate) fn frusta_for(
-        level: Level,
+    pub(crate) fn frusta_as(
+        plan: Plan,
         count: usize,
         open: bool,
         frustum: impl Fn(usize) -> ([DVec3; 2], [f64; 2]) + Sync,
@@ -142,13 +146,13 @@ impl Particles {
             let [[a, b, c], [d, e, f]] = ends.map(|end| narrow(end - origin));
             [a, b, c, d, e, f, base_radius as f32, top_radius as f32]
         };
-        let (bvh, blocks, bounds) = plant::<Frustum<false>, _>(count, numbers, level);
+        let (bvh, blocks, bounds) = plant::<Frustum<false>, _>(count, numbers, plan);
         let blocks = if open { Blocks::OpenFrusta(blocks) } else { Blocks::Frusta(blocks) };
-        Particles { origin, bvh, blocks, bounds, level }
+        Particles { origin, bvh, blocks, bounds, level: plan.level }
     }
 
-    pub(crate) fn capsules_for(
-        level: Level,
+    pub(crate) fn capsules_as(
+        plan: Plan,
         count: usize,
         capsule: impl Fn(usize) -> ([DVec3; 2], f64) + Sync,
     ) -> Particles {
@@ -158,8 +162,8 @@ impl Particles {
             let [[a, b, c], [d, e, f]] = ends.map(|end| narrow(end - origin));
             [a, b, c, d, e, f, radius as f32]
         };
-        let (bvh, blocks, bounds) = plant::<Capsule, _>(count, numbers, level);
-        Particles { origin, bvh, blocks: Blocks::Capsules(blocks), bounds, level }
+        let (bvh, blocks, bounds) = plant::<Capsule, _>(count, numbers, plan);
+        Particles { origin, bvh, blocks: Blocks::Capsules(blocks), bounds, level: plan.level }
     }
 }
 
@@ -167,14 +171,13 @@ impl Particles {
 fn plant<P: Particle<N>, const N: usize>(
     count: usize,
     numbers: impl Fn(usize) -> [f32; N] + Sync,
-    level: Level,
+    plan: Plan,
 ) -> (Bvh, Vec<Block<N>>, Bounds) {
     debug_assert!(count <= MAX_ITEMS);
     let item = |index: usize| Item::new(index as u32, P::of(numbers(index)).bounds());
     let mut items: Vec<Item> = (0..count).into_par_iter().map(item).collect();
     let bounds = items.iter().fold(Box32::EMPTY, |all, item| all.union(item.0));
-    let mut bvh = build(&mut items, P::LEAVES, level);
-    merge(&mut bvh, &items);
+    let mut bvh = build(&mut items, P::LEAVES, plan);
     let block = |ids: [u32; SLOTS]| Block::new(ids, ids.map(|id| numbers(id as usize)));
     let blocks = pack(&mut bvh, &items).into_par_iter().map(block).collect();
     (bvh, blocks, Bounds::from(bounds))

@@ -4,8 +4,9 @@
 //! sets give the same tree.
 
 use super::boxes::Box32;
-use crate::bvh::build::Item;
+use crate::bvh::build::{BuildFor, Item, longest_axis};
 use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x4, mask32x8, prelude::*};
+use std::ops::Range;
 
 /// A box around the centers of items, each taken twice as large so that no halving is needed: least coordinates, a spare
 /// number, greatest coordinates with their signs changed, a spare number.
@@ -13,10 +14,14 @@ pub(crate) type Centers = Box32;
 
 /// The most bins of an axis. More make trees hardly better and cost time.
 const MOST_BINS: usize = 32;
+/// Where building must be quick.
+const FEW_BINS: usize = 12;
 
 /// Items counted by where their centers lie along each axis.
 pub(crate) struct Bins {
     count: usize,
+    /// Along which axes cuts are looked for.
+    axes: Range<usize>,
     scale: Scale,
     boxes: [[Box32; MOST_BINS]; 3],
     counts: [[u32; MOST_BINS]; 3],
@@ -62,10 +67,17 @@ impl Scale {
 }
 
 impl Bins {
-    pub(crate) fn new(items: usize, centers: &Centers) -> Bins {
-        let count = (16 + items / 16).min(MOST_BINS);
+    pub(crate) fn new(items: usize, centers: &Centers, purpose: BuildFor) -> Bins {
+        let (count, axes) = match purpose {
+            BuildFor::Preview => {
+                let longest = longest_axis(centers);
+                (FEW_BINS, longest..longest + 1)
+            }
+            BuildFor::Picture | BuildFor::ManyRays => ((16 + items / 16).min(MOST_BINS), 0..3),
+        };
         Bins {
             count,
+            axes,
             scale: Scale::new(count, centers),
             boxes: [[Box32::EMPTY; MOST_BINS]; 3],
             counts: [[0; MOST_BINS]; 3],
@@ -75,7 +87,7 @@ impl Bins {
     /// The cut with the least cost, if any divides the items; `area` is that of all.
     pub(crate) fn best_cut(&self, block: usize, area: f32) -> Option<Cut> {
         let mut best: Option<Cut> = None;
-        for axis in (0..3).filter(|&axis| self.scale.factor[axis] > 0.0) {
+        for axis in self.axes.clone().filter(|&axis| self.scale.factor[axis] > 0.0) {
             let (boxes, counts) = (&self.boxes[axis], &self.counts[axis]);
             let cost = |bounds: &Box32, count: u32| bounds.half_area() * (count as usize).div_ceil(block) as f32;
             let mut right_costs = [(0.0, 0); MOST_BINS];
@@ -165,8 +177,9 @@ fn fill_with<S: Simd>(simd: S, bins: &mut Bins, items: &[Item]) {
     for item in items {
         let bounds = f32x8::simd_from(simd, item.0.0);
         let at = bins.scale.bins(simd, center_of(bounds));
-        for (axis, (boxes, counts)) in bins.boxes.iter_mut().zip(&mut bins.counts).enumerate() {
-            let bin = at[axis] as usize & (MOST_BINS - 1);
+        for axis in bins.axes.clone() {
+            let (boxes, counts) = (&mut bins.boxes[axis % 3], &mut bins.counts[axis % 3]);
+            let bin = at[axis % 3] as usize & (MOST_BINS - 1);
             let sum = &mut boxes[bin].0;
             *sum = f32x8::simd_from(simd, *sum).min(bounds).into();
             counts[bin] += 1;

@@ -89,7 +89,7 @@ fn for_random_scenes(check: impl Fn(&[Primitive], &[World], &mut Random)) {
         for _ in 0..if bounded < 100 { 6 } else { 1 } {
             let primitives = random.scene(bounded, planes);
             let worlds: Vec<World> =
-                levels().into_iter().map(|level| World::build_for(primitives.clone(), level)).collect();
+                levels().into_iter().map(|level| World::build_as(primitives.clone(), level.into())).collect();
             check(&primitives, &worlds, &mut random);
         }
     }
@@ -203,7 +203,7 @@ fn of_axis_aligned_faces_all_but_in_one_place_the_nearer_is_hit_and_of_equal_one
             // Enough things to make the tree a tree.
             let mut primitives = vec![sheet(y), sheet(y + gap), sheet(y)];
             primitives.extend((0..20).map(|_| random.primitive(0.1)));
-            let world = World::build(primitives.clone());
+            let world = World::build(primitives.clone(), BuildFor::Picture);
             let vantage_point = DVec3::new(0.2, 5.0, 0.1);
             let vantage = world.vantage(vantage_point);
             for i in 0..2000 {
@@ -225,7 +225,7 @@ fn one_plane_written_twice_is_hit_as_the_first_whatever_finds_it() {
         Primitive::plane(DVec3::NEG_Y, DVec3::Y, &DAffine3::IDENTITY),
         Primitive::plane(DVec3::NEG_Y / 0.7, DVec3::Y, &scaled),
     ];
-    let world = World::build(primitives.clone());
+    let world = World::build(primitives.clone(), BuildFor::Picture);
     let eye = DVec3::new(0.3, 1.9, 0.4);
     let vantage = world.vantage(eye);
     let mut random = Random(13);
@@ -240,7 +240,7 @@ fn one_plane_written_twice_is_hit_as_the_first_whatever_finds_it() {
 #[test]
 fn a_plane_through_the_light_hides_no_other_plane() {
     let level = |y: f64| Primitive::plane(DVec3::Y * y, DVec3::Y, &DAffine3::IDENTITY);
-    let world = World::build(vec![level(0.3), level(0.0), level(-2.0)]);
+    let world = World::build(vec![level(0.3), level(0.0), level(-2.0)], BuildFor::Picture);
     let light = DVec3::new(0.0, 0.3_f64.next_up(), 0.0);
     let vantage = world.vantage(light);
     let origin = DVec3::new(0.5, -1.9, 0.2);
@@ -294,7 +294,7 @@ fn the_tree_is_no_deeper_than_its_stack_allows() {
         );
         Primitive::sphere(DVec3::ZERO, 1.0, &map)
     };
-    let world = World::build((0..6000).map(nested).collect());
+    let world = World::build((0..6000).map(nested).collect(), BuildFor::Picture);
     assert!(
         world
             .closest_hit(&Ray { origin: DVec3::X * 9000.0, direction: DVec3::NEG_X }, f64::INFINITY, 1, None)

@@ -3,7 +3,7 @@
 use super::GeometryMemory;
 use super::looks::Colors;
 use super::{particles, shapes, solids};
-use durer_geometry::{Mesh, MeshSource, Primitive};
+use durer_geometry::{BuildFor, Mesh, MeshSource, Primitive};
 use durer_math::DAffine3;
 use durer_scene::{MeshData, Object, ObjectKind, Particles, Shape, Solid};
 use rayon::prelude::*;
@@ -16,6 +16,8 @@ pub(super) struct Contents {
     meshes: Vec<Arc<Mesh>>,
     /// Where the mesh of some data is in that list, by the data's address.
     indices: HashMap<usize, usize>,
+    /// What trees are built for.
+    purpose: BuildFor,
 }
 
 /// A shape of any kind, in its object's space.
@@ -51,7 +53,7 @@ impl MeshSource for Shared {
 
 impl Contents {
     /// Builds what these objects are made of, with the threads of the current pool.
-    pub(super) fn of(objects: &[Object]) -> Contents {
+    pub(super) fn of(objects: &[Object], purpose: BuildFor) -> Contents {
         let (mut indices, mut found) = (HashMap::new(), Vec::new());
         each_mesh(objects, &mut |data| {
             indices.entry(address(data)).or_insert_with(|| {
@@ -59,8 +61,8 @@ impl Contents {
                 found.len() - 1
             });
         });
-        let build = |data: Arc<MeshData>| Arc::new(Mesh::build(Arc::new(Shared(data))));
-        Contents { meshes: found.into_par_iter().map(build).collect(), indices }
+        let build = |data: Arc<MeshData>| Arc::new(Mesh::build(Arc::new(Shared(data)), purpose));
+        Contents { meshes: found.into_par_iter().map(build).collect(), indices, purpose }
     }
 
     /// Bytes of the meshes, and how many triangles they have.
@@ -81,7 +83,7 @@ impl Contents {
                 Some(Content::Mesh(self.meshes[index].clone(), &mesh.data))
             }
             ObjectKind::Particles(particles) => (!particles.kind.is_empty())
-                .then(|| Content::Particles(Arc::new(particles::build(particles)), particles)),
+                .then(|| Content::Particles(Arc::new(particles::build(particles, self.purpose)), particles)),
             ObjectKind::Solid(solid) => Some(Content::Solid(Box::new(solids::build(solid, self)), solid)),
             ObjectKind::Group(_) | ObjectKind::Instances(_) | ObjectKind::Import(_) => None,
         }

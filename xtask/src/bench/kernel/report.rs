@@ -13,7 +13,8 @@ struct Column {
     variants: &'static [&'static str],
 }
 
-const DURER: Column = Column { head: "durer", program: "durer", variants: &[""] };
+const DURER: Column = Column { head: "durer", program: "durer", variants: &["picture"] };
+const MANY_RAYS: Column = Column { head: "durer, many rays", program: "durer", variants: &["many-rays"] };
 const EMBREE: [Column; 2] = [
     Column { head: "Embree, medium", program: "Embree", variants: &["medium", "user medium"] },
     Column { head: "Embree, high", program: "Embree", variants: &["high", "user high"] },
@@ -90,7 +91,7 @@ fn about(rounds: usize) -> String {
 }
 
 fn columns(has_embree: bool) -> impl Iterator<Item = Column> {
-    [DURER].into_iter().chain(EMBREE.into_iter().filter(move |_| has_embree)).chain(CRATES)
+    [DURER, MANY_RAYS].into_iter().chain(EMBREE.into_iter().filter(move |_| has_embree)).chain(CRATES)
 }
 
 fn rates(lines: &Lines, scenes: &[&str], has_embree: bool) -> String {
@@ -182,16 +183,16 @@ mod tests {
     #[test]
     fn tables_have_ratios_differences_and_bytes() {
         let mut lines = Lines::default();
-        lines.read(&printed("durer", "", 3.0, 7)).unwrap();
+        lines.read(&printed("durer", "picture", 3.0, 7)).unwrap();
         lines.read(&printed("Embree", "medium", 2.0, 8)).unwrap();
         lines.read(&printed("Embree", "high", 4.0, 8)).unwrap();
         let table = rates(&lines, &["soup"], true);
-        assert!(table.contains("| soup | bounce, closest | 3.00 | 2.00 | 4.00 | – | – | 1.50 | 0.75 |"), "{table}");
+        assert!(table.contains("| soup | bounce, closest | 3.00 | – | 2.00 | 4.00 | – | – | 1.50 | 0.75 |"), "{table}");
         let table = findings(&lines, &["soup"], true);
-        assert!(table.contains("| 100 / 8 / 8.5000 | +0 / -1 / -1.0000 | +0 / +0 / +0.0000 | – | – |"), "{table}");
+        assert!(table.contains("| 100 / 8 / 8.5000 | +0 / -1 / -1.0000 | – | +0 / +0 / +0.0000 | – | – |"), "{table}");
         let table = builds(&lines, &["soup"]);
         assert!(table.contains("| soup | Embree, medium | 0.500 | 64.0 | 76.0 |"), "{table}");
         let table = rates(&lines, &["soup"], false);
-        assert!(table.contains("| soup | bounce, closest | 3.00 | – | – |\n"), "{table}");
+        assert!(table.contains("| soup | bounce, closest | 3.00 | – | – | – |\n"), "{table}");
     }
 }

@@ -108,7 +108,10 @@ fn the_nearest_triangle_is_that_of_testing_all() {
     let mut random = Random(21);
     for count in [1, 2, 5, 9, 40, 700] {
         let lists: Arc<dyn MeshSource> = Arc::new(soup(&mut random, count));
-        let meshes: Vec<Mesh> = levels().into_iter().map(|level| Mesh::build_for(Arc::clone(&lists), level)).collect();
+        let built = |plan: Plan| Mesh::build_as(Arc::clone(&lists), plan);
+        let of_levels = levels().into_iter().map(|level| built(level.into()));
+        let of_purposes = [BuildFor::Preview, BuildFor::ManyRays].into_iter().map(|purpose| built(Plan::new(purpose)));
+        let meshes: Vec<Mesh> = of_levels.chain(of_purposes).collect();
         for _ in 0..400 {
             let ray = some_ray(&mut random, &meshes[0]);
             let t_max = if random.between(0.0, 1.0) < 0.3 { random.between(0.1, 2.0) } else { f64::INFINITY };
@@ -127,7 +130,7 @@ fn rays_in_a_packet_hit_what_they_hit_alone() {
     for count in [3, 60, 3000] {
         let lists: Arc<dyn MeshSource> = Arc::new(soup(&mut random, count));
         for level in levels() {
-            let mesh = Mesh::build_for(Arc::clone(&lists), level);
+            let mesh = Mesh::build_as(Arc::clone(&lists), level.into());
             for _ in 0..300 {
                 let first = some_ray(&mut random, &mesh);
                 let spread = random.power(-4.0, 0.5);
@@ -157,7 +160,7 @@ fn rays_in_a_packet_hit_what_they_hit_alone() {
 #[test]
 fn no_ray_leaves_a_closed_mesh() {
     let mut random = Random(23);
-    let mesh = Mesh::build(Arc::new(ball(24)));
+    let mesh = Mesh::build(Arc::new(ball(24)), BuildFor::Picture);
     assert!(mesh.is_closed());
     for _ in 0..100_000 {
         let corner = |random: &mut Random| {
@@ -175,7 +178,7 @@ fn no_ray_leaves_a_closed_mesh() {
 #[test]
 fn inside_is_inside() {
     let mut random = Random(24);
-    let mesh = Mesh::build(Arc::new(ball(16)));
+    let mesh = Mesh::build(Arc::new(ball(16)), BuildFor::Picture);
     let mut inside = 0;
     for _ in 0..3000 {
         let point = random.in_cube() * 1.5;
@@ -200,11 +203,11 @@ fn a_mesh_with_a_hole_or_a_flipped_triangle_is_not_closed() {
     flipped.triangles[middle].swap(1, 2);
     let mut torn = ball(8);
     torn.triangles.remove(middle);
-    assert!(Mesh::build(Arc::new(ball(8))).is_closed());
-    assert!(Mesh::build(Arc::new(holed)).is_closed() == (holed_is_flat()));
-    assert!(!Mesh::build(Arc::new(flipped)).is_closed());
-    assert!(!Mesh::build(Arc::new(torn)).is_closed());
-    assert!(!Mesh::build(Arc::new(soup(&mut Random(1), 30))).is_closed());
+    assert!(Mesh::build(Arc::new(ball(8)), BuildFor::Picture).is_closed());
+    assert!(Mesh::build(Arc::new(holed), BuildFor::Picture).is_closed() == (holed_is_flat()));
+    assert!(!Mesh::build(Arc::new(flipped), BuildFor::Picture).is_closed());
+    assert!(!Mesh::build(Arc::new(torn), BuildFor::Picture).is_closed());
+    assert!(!Mesh::build(Arc::new(soup(&mut Random(1), 30)), BuildFor::Picture).is_closed());
 }
 
 /// The first triangle of the ball lies in a pole, where a whole ring is one point, and has no area.
@@ -220,7 +223,7 @@ fn the_tree_is_the_same_for_any_number_of_threads() {
     let built: Vec<Mesh> = [1, 2, 5]
         .map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-            pool.install(|| Mesh::build(Arc::clone(&lists)))
+            pool.install(|| Mesh::build(Arc::clone(&lists), BuildFor::Picture))
         })
         .into();
     for mesh in &built[1..] {
@@ -231,7 +234,7 @@ fn the_tree_is_the_same_for_any_number_of_threads() {
 #[test]
 fn equal_centers_make_no_endless_tree() {
     let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let mesh = Mesh::build(Arc::new(Lists { positions, triangles: vec![[0, 1, 2]; 5000] }));
+    let mesh = Mesh::build(Arc::new(Lists { positions, triangles: vec![[0, 1, 2]; 5000] }), BuildFor::Picture);
     let ray = Ray { origin: DVec3::new(0.2, 0.2, 1.0), direction: DVec3::NEG_Z };
     assert_eq!(mesh.intersect(&ray, 2.0), Some(Crossing { t: 1.0, part: 0 }));
 }
@@ -253,7 +256,7 @@ fn tiles(half: i32) -> Lists {
 fn rays_in_the_planes_between_boxes_meet_the_edges_there() {
     let lists: Arc<dyn MeshSource> = Arc::new(tiles(20));
     for level in levels() {
-        let mesh = Mesh::build_for(Arc::clone(&lists), level);
+        let mesh = Mesh::build_as(Arc::clone(&lists), level.into());
         for (x, y) in (-19..20).flat_map(|x| (-19..20).map(move |y| (f64::from(x), f64::from(y)))) {
             for (sign, distance) in [(1.0, 2.0), (-1.0, 7.0)] {
                 let origin = DVec3::new(x, y, if sign > 0.0 { 0.0 } else { 9.0 });

@@ -117,10 +117,10 @@ fn set(level: Level, all: &[One]) -> Particles {
     };
     let round = |index: usize| (ends(index).0, ends(index).1[0]);
     match all[0] {
-        One::Sphere(..) => Particles::spheres_for(level, all.len(), |index| (round(index).0[0], round(index).1)),
-        One::Frustum(..) => Particles::frusta_for(level, all.len(), false, ends),
-        One::Tube(..) => Particles::frusta_for(level, all.len(), true, ends),
-        One::Capsule(..) => Particles::capsules_for(level, all.len(), round),
+        One::Sphere(..) => Particles::spheres_as(level.into(), all.len(), |index| (round(index).0[0], round(index).1)),
+        One::Frustum(..) => Particles::frusta_as(level.into(), all.len(), false, ends),
+        One::Tube(..) => Particles::frusta_as(level.into(), all.len(), true, ends),
+        One::Capsule(..) => Particles::capsules_as(level.into(), all.len(), round),
     }
 }
 

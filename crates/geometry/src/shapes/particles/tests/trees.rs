@@ -95,7 +95,7 @@ fn of_equals_the_first_wins() {
 
 #[test]
 fn nested_ones_are_met_from_outside_in() {
-    let shells = Particles::spheres(64, |index| (DVec3::ZERO, (64 - index) as f64));
+    let shells = Particles::spheres(64, BuildFor::Picture, |index| (DVec3::ZERO, (64 - index) as f64));
     let inwards = Ray { origin: DVec3::X * 100.0, direction: DVec3::NEG_X };
     let mut from = 0.0;
     for index in 0..64 {
