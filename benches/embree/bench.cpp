@@ -128,6 +128,8 @@ static Built build(RTCDevice device, RTCBuildQuality quality) {
   size_t before = held;
   RTCScene scene = rtcNewScene(device);
   rtcSetSceneBuildQuality(scene, quality);
+  // Without it rays may slip through between triangles.
+  if (quality_name == "robust") rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   RTCGeometry things = geometry(device);
   rtcSetGeometryBuildQuality(things, quality);
   rtcCommitGeometry(things);

@@ -58,7 +58,7 @@ fn commands(programs: &Programs, scene: &str) -> Vec<Command> {
 
 fn embree(path: &Path, scene: &str) -> Vec<Command> {
     let of = |scene: &str| {
-        let qualities = [("low", BUILD_ONLY), ("medium", REPEATS), ("high", REPEATS)];
+        let qualities = [("low", BUILD_ONLY), ("medium", REPEATS), ("high", REPEATS), ("robust", REPEATS)];
         qualities.map(|(quality, repeats)| command(path, &[scene, repeats, quality]))
     };
     let user = (scene == "spheres").then_some("user-spheres");

@@ -54,10 +54,10 @@ impl Bvh {
     /// Calls `test(items)` for the leaves that a ray, or some ray of a packet, may meet before `t_max`, roughly from near to
     /// far; `test` gives the new `t_max`, smaller if something was hit. False if it was given up on the way.
     #[inline(always)]
-    pub(crate) fn nearest<S: Simd, W: Watch, T>(
+    pub(crate) fn nearest<S: Simd, W: Watch, B: BoxTest<S>, T>(
         &self,
         simd: S,
-        rays: &impl BoxTest<S>,
+        rays: &B,
         things: &[T],
         t_max: f64,
         watch: &mut W,
@@ -66,7 +66,7 @@ impl Bvh {
         if self.nodes.is_empty() {
             return true;
         }
-        let mut patience = Patience::of::<S, _>(rays);
+        let mut patience = Patience { left: B::MOST_MET.map(|most| most.nearest) };
         let mut t_max = round_up(t_max);
         let mut stack = Stack::new();
         let mut at = Child::node(0);
@@ -75,12 +75,12 @@ impl Bvh {
             while !at.is_leaf() {
                 let node = &self.nodes[at.index()];
                 watch.node();
-                if patience.ends() {
-                    return false;
-                }
                 // Which child is next will be known late: its number should be at hand by then.
                 prefetch(&node.children, 0);
                 let (mut hits, enter) = rays.hits(simd, &node.boxes, t_max);
+                if patience.ends(hits) {
+                    return false;
+                }
                 if hits == 0 {
                     at = Child::NONE;
                     break;
@@ -115,10 +115,10 @@ impl Bvh {
     /// Whether `test(items)` is true for some leaf that a ray, or some ray of a packet, may meet before `t_max`; `None` if
     /// the search was given up.
     #[inline(always)]
-    pub(crate) fn any<S: Simd, T>(
+    pub(crate) fn any<S: Simd, B: BoxTest<S>, T>(
         &self,
         simd: S,
-        rays: &impl BoxTest<S>,
+        rays: &B,
         things: &[T],
         t_max: f64,
         mut test: impl FnMut(Range<usize>) -> bool,
@@ -126,16 +126,16 @@ impl Bvh {
         if self.nodes.is_empty() {
             return Some(false);
         }
-        let mut patience = Patience::of::<S, _>(rays).short();
+        let mut patience = Patience { left: B::MOST_MET.map(|most| most.any) };
         let t_max = round_up(t_max);
         let mut stack = ArrayVec::<Child, { 7 * MAX_DEPTH + 8 }>::new();
         let mut index = 0;
         loop {
             let node = &self.nodes[index];
-            if patience.ends() {
+            let (mut hits, _) = rays.hits(simd, &node.boxes, t_max);
+            if patience.ends(hits) {
                 return None;
             }
-            let (mut hits, _) = rays.hits(simd, &node.boxes, t_max);
             while hits != 0 {
                 let child = node.children[next(&mut hits)];
                 self.fetch(child, things);
@@ -167,15 +167,15 @@ impl Bvh {
 
 /// What the traversal asks of a ray, or of a packet of rays.
 pub(crate) trait BoxTest<S: Simd>: Copy {
-    /// After so many nodes a search is given up; `None` for never.
-    const MOST_NODES: Option<u32>;
+    /// After so many boxes that are met a search is given up; `None` for never.
+    const MOST_MET: Option<Most>;
 
     /// Which of the boxes may be met between 0 and `t_max`, one bit each, and where each may be entered.
     fn hits(&self, simd: S, boxes: &Boxes, t_max: f32) -> (u64, [f32; 8]);
 }
 
 impl<S: Simd> BoxTest<S> for BoxRay {
-    const MOST_NODES: Option<u32> = None;
+    const MOST_MET: Option<Most> = None;
 
     #[inline(always)]
     fn hits(&self, simd: S, boxes: &Boxes, t_max: f32) -> (u64, [f32; 8]) {
@@ -184,9 +184,9 @@ impl<S: Simd> BoxTest<S> for BoxRay {
 }
 
 impl<S: Simd> BoxTest<S> for BoxPacket {
-    /// Rays that belong together visit some ten to thirty nodes in scenes of a million triangles. Those that do not would
-    /// visit all that lies between them.
-    const MOST_NODES: Option<u32> = Some(96);
+    /// Rays that belong together meet some twenty to sixty boxes in scenes of a million triangles. Those that do not would
+    /// meet all that lies between them; and where anything will do and nothing is in order, they gain least.
+    const MOST_MET: Option<Most> = Some(Most { nearest: 400, any: 40 });
 
     #[inline(always)]
     fn hits(&self, simd: S, boxes: &Boxes, t_max: f32) -> (u64, [f32; 8]) {
@@ -194,34 +194,27 @@ impl<S: Simd> BoxTest<S> for BoxPacket {
     }
 }
 
-/// Counts the nodes of a search, if there is a limit.
+/// How many boxes may be met in a search for the nearest hit, and in one for any.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Most {
+    nearest: u32,
+    any: u32,
+}
+
+/// Counts the boxes that are met in a search, if there is a limit.
 struct Patience {
     left: Option<u32>,
 }
 
 impl Patience {
+    /// True if these children of a node are too many.
     #[inline(always)]
-    fn of<S: Simd, B: BoxTest<S>>(_rays: &B) -> Patience {
-        Patience { left: B::MOST_NODES }
-    }
-
-    /// Searches for anything, without order, gain less by going together.
-    #[inline(always)]
-    fn short(self) -> Patience {
-        Patience { left: self.left.map(|left| left / 3) }
-    }
-
-    /// True if one more node is too many.
-    #[inline(always)]
-    fn ends(&mut self) -> bool {
-        match &mut self.left {
-            None => false,
-            Some(0) => true,
-            Some(left) => {
-                *left -= 1;
-                false
-            }
-        }
+    fn ends(&mut self, hits: u64) -> bool {
+        let Some(left) = &mut self.left else { return false };
+        let met = hits.count_ones();
+        let ends = met > *left;
+        *left = left.saturating_sub(met);
+        ends
     }
 }
 
