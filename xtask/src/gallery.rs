@@ -40,7 +40,7 @@ fn render(durer: &Path, picture: &Picture) -> Result<usize, String> {
     let path = shell::root().join(FOLDER).join(picture.file());
     shell::write(&path, [])?;
     let mut command = Command::new(durer);
-    command.args(["render", picture.scene, "--quiet", "--output"]).arg(&path).args(picture.arguments);
+    command.args([picture.command, picture.scene, "--quiet", "--output"]).arg(&path).args(picture.arguments);
     let rendered = shell::output(command.current_dir(shell::root())).and_then(|_| shrink::shrink(&path));
     match rendered {
         Ok(bytes) if bytes <= LARGEST => Ok(bytes),

@@ -2,6 +2,7 @@
 
 use crate::MaterialId;
 use durer_math::{DVec3, Rgb};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// A mesh, and where it came from. Copies share its data; so do all objects that name the same file.
@@ -50,6 +51,33 @@ pub struct MeshData {
     pub parts: Vec<MeshPart>,
 }
 
+impl MeshData {
+    /// How many edges do not join two triangles that run along them in opposite directions; with none the mesh has an inside.
+    /// `None` if no triangle has an area.
+    ///
+    /// Corners at the same place count as one, whatever their numbers are; triangles without area do not count.
+    pub fn open_edges(&self) -> Option<usize> {
+        let mut numbers: HashMap<[u32; 3], u32> = HashMap::new();
+        // Adding 0 makes -0 and 0 the same.
+        let mut number = |position: [f32; 3]| {
+            let next = numbers.len() as u32;
+            *numbers.entry(position.map(|x| (x + 0.0).to_bits())).or_insert(next)
+        };
+        let places: Vec<u32> = self.positions.iter().map(|&position| number(position)).collect();
+        let mut edges: HashMap<[u32; 2], i32> = HashMap::new();
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.map(|vertex| places[vertex as usize]);
+            if a == b || b == c || c == a {
+                continue;
+            }
+            for [from, to] in [[a, b], [b, c], [c, a]] {
+                *edges.entry([from.min(to), from.max(to)]).or_insert(0) += if from < to { 1 } else { -1 };
+            }
+        }
+        (!edges.is_empty()).then(|| edges.values().filter(|&&balance| balance != 0).count())
+    }
+}
+
 /// A run of triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshPart {
@@ -75,4 +103,34 @@ pub struct Import {
     pub lights: Vec<crate::Light>,
     /// Its first camera, in the same space; used if the scene has none.
     pub camera: Option<crate::Camera>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A tetrahedron whose corners are listed once for each triangle.
+    fn tetrahedron() -> MeshData {
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [-0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let positions = faces.iter().flatten().map(|&corner: &usize| corners[corner]).collect();
+        let triangles = (0..4).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect();
+        MeshData { positions, triangles, ..MeshData::default() }
+    }
+
+    #[test]
+    fn edges_are_open_at_holes_and_along_flipped_triangles() {
+        let whole = tetrahedron();
+        assert_eq!(whole.open_edges(), Some(0));
+        let holed = MeshData { triangles: whole.triangles[1..].to_vec(), ..whole.clone() };
+        assert_eq!(holed.open_edges(), Some(3));
+        let mut flipped = whole.clone();
+        flipped.triangles[2].swap(0, 1);
+        assert_eq!(flipped.open_edges(), Some(3));
+        let mut with_needle = whole.clone();
+        with_needle.triangles.push([0, 0, 1]);
+        assert_eq!(with_needle.open_edges(), Some(0));
+        assert_eq!(MeshData { triangles: vec![[0, 0, 1]], ..whole }.open_edges(), None);
+        assert_eq!(MeshData::default().open_edges(), None);
+    }
 }

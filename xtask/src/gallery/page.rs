@@ -15,7 +15,7 @@ fn section(entry: &Entry) -> String {
         [one] => image(one),
         several => table(several),
     };
-    let commands: Vec<String> = entry.pictures.iter().map(Picture::command).collect();
+    let commands: Vec<String> = entry.pictures.iter().map(Picture::command_line).collect();
     let Entry { heading, text, .. } = entry;
     format!("\n## {heading}\n\n{text}\n\n{pictures}\n\n```sh\n{}\n```\n", commands.join("\n"))
 }
@@ -38,13 +38,18 @@ fn image(picture: &Picture) -> String {
 mod tests {
     use super::*;
 
-    const ONE: Picture = Picture { name: "a", caption: "fog", scene: "scenes/a.yaml", arguments: &["--width", "9"] };
+    const ONE: Picture =
+        Picture { name: "a", caption: "fog", command: "render", scene: "scenes/a.yaml", arguments: &["--width", "9"] };
 
     #[test]
     fn pairs_stand_side_by_side() {
-        let entry = Entry { heading: "Fog", text: "On and off.", pictures: &[ONE, Picture { name: "b", ..ONE }] };
+        let entry = Entry {
+            heading: "Fog",
+            text: "On and off.",
+            pictures: &[ONE, Picture { name: "b", command: "heatmap", ..ONE }],
+        };
         let page = markdown(&[entry]);
         assert!(page.contains("| fog | fog |\n| --- | --- |\n| ![fog](a.png) | ![fog](b.png) |"), "{page}");
-        assert!(page.contains("durer render scenes/a.yaml -o b.png --width 9\n"), "{page}");
+        assert!(page.contains("durer heatmap scenes/a.yaml -o b.png --width 9\n"), "{page}");
     }
 }

@@ -32,6 +32,10 @@ impl MeshSource for Lists {
     fn uvs(&self) -> &[[f32; 2]] {
         &[]
     }
+
+    fn is_closed(&self) -> bool {
+        false
+    }
 }
 
 /// Builds a scene and measures it.

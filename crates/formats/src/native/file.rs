@@ -74,8 +74,8 @@ fn brings_lights(object: &Object) -> bool {
     match &object.kind {
         ObjectKind::Import(import) => !import.lights.is_empty(),
         ObjectKind::Group(members) => members.iter().any(brings_lights),
-        ObjectKind::Instances(copies) => copies.objects.iter().any(brings_lights),
-        ObjectKind::Solid(solid) => solid.operands.iter().any(brings_lights),
+        // Lights in instances do not shine, and solids have no imports.
+        ObjectKind::Instances(_) | ObjectKind::Solid(_) => false,
         ObjectKind::Shape(_) | ObjectKind::Mesh(_) | ObjectKind::Particles(_) => false,
     }
 }

@@ -6,8 +6,9 @@ use super::record::{FieldAbout, Record, fields, record};
 use super::tables::Role;
 use super::value::Item;
 use super::write::FieldsOut;
+use crate::diagnostics::Complaint;
 use durer_math::DVec3;
-use durer_scene::{Instances, MaterialId, Object};
+use durer_scene::{Instances, MaterialId, Object, ObjectKind};
 
 /// Instances as a scene file says them.
 pub(crate) struct Written {
@@ -34,6 +35,13 @@ impl Written {
     /// The instances, with what files have.
     pub(crate) fn resolve(self, from: &mut Fields<'_, '_, '_>) -> Instances {
         let Written { objects, positions, rotations, scale, materials } = self;
+        let lights: usize = objects.iter().map(lights_in).sum();
+        if lights > 0 {
+            let lights = if lights == 1 { "a light".to_owned() } else { format!("{lights} lights") };
+            let message = format!("what is imported here brings {lights}, which will not shine: instances have none");
+            let complaint = Complaint::warning(from.span_of("objects"), message);
+            let _: Option<()> = from.cx.complain(complaint.help("add lights to the scene's own `lights`"));
+        }
         Instances {
             objects,
             positions: positions.resolve(Role::Positions, from),
@@ -41,6 +49,18 @@ impl Written {
             scales: scale.resolve(Role::Scale, from),
             materials,
         }
+    }
+}
+
+/// How many lights the files among an object bring.
+fn lights_in(object: &Object) -> usize {
+    let in_all = |objects: &[Object]| objects.iter().map(lights_in).sum();
+    match &object.kind {
+        ObjectKind::Import(import) => import.lights.len(),
+        ObjectKind::Group(members) => in_all(members),
+        // Of instances inside of instances that has been said already, and solids have no imports.
+        ObjectKind::Instances(_) | ObjectKind::Solid(_) => 0,
+        ObjectKind::Shape(_) | ObjectKind::Mesh(_) | ObjectKind::Particles(_) => 0,
     }
 }
 

@@ -13,7 +13,6 @@ use crate::{Bounds, Crossing, Ray};
 use durer_math::{DVec2, DVec3};
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
 use rayon::prelude::*;
-use std::collections::HashMap;
 use std::fmt::Debug;
 use std::sync::{Arc, OnceLock};
 
@@ -28,6 +27,9 @@ pub trait MeshSource: Debug + Send + Sync {
     fn normals(&self) -> &[[f32; 3]];
     /// Texture coordinates, one for each vertex or none.
     fn uvs(&self) -> &[[f32; 2]];
+    /// True if the mesh has an inside: each edge joins two triangles that run along it in opposite directions. Asked once, if
+    /// anyone needs to know.
+    fn is_closed(&self) -> bool;
 }
 
 /// A triangle mesh, ready for rays.
@@ -84,9 +86,9 @@ impl Mesh {
         &*self.source
     }
 
-    /// True if it has an inside: each edge joins two triangles that run along it in opposite directions.
+    /// True if it has an inside, as its source says.
     pub fn is_closed(&self) -> bool {
-        *self.closed.get_or_init(|| is_closed(&*self.source))
+        *self.closed.get_or_init(|| self.source.is_closed())
     }
 
     /// The shading normal at a point of a triangle, of any length but zero, if the mesh has such normals.
@@ -293,28 +295,6 @@ fn bounds_of(corners: [[f32; 3]; 3]) -> Box32 {
     let least = |axis: usize| a[axis].min(b[axis]).min(c[axis]);
     let greatest = |axis: usize| a[axis].max(b[axis]).max(c[axis]);
     Box32::new(std::array::from_fn(least), std::array::from_fn(greatest))
-}
-
-/// Corners at the same place count as one, whatever their numbers are; triangles without area do not count.
-fn is_closed(source: &dyn MeshSource) -> bool {
-    let mut numbers: HashMap<[u32; 3], u32> = HashMap::new();
-    // Adding 0 makes -0 and 0 the same.
-    let mut number = |position: [f32; 3]| {
-        let next = numbers.len() as u32;
-        *numbers.entry(position.map(|x| (x + 0.0).to_bits())).or_insert(next)
-    };
-    let places: Vec<u32> = source.positions().iter().map(|&position| number(position)).collect();
-    let mut edges: HashMap<[u32; 2], i32> = HashMap::new();
-    for triangle in source.triangles() {
-        let [a, b, c] = triangle.map(|vertex| places[vertex as usize]);
-        if a == b || b == c || c == a {
-            continue;
-        }
-        for [from, to] in [[a, b], [b, c], [c, a]] {
-            *edges.entry([from.min(to), from.max(to)]).or_insert(0) += if from < to { 1 } else { -1 };
-        }
-    }
-    !edges.is_empty() && edges.values().all(|&balance| balance == 0)
 }
 
 impl Shape for Mesh {

@@ -49,6 +49,10 @@ impl MeshSource for Shared {
     fn uvs(&self) -> &[[f32; 2]] {
         &self.0.uvs
     }
+
+    fn is_closed(&self) -> bool {
+        self.0.open_edges() == Some(0)
+    }
 }
 
 impl Contents {

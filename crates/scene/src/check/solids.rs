@@ -3,7 +3,7 @@
 use super::objects::all;
 use super::values::{Around, Checker};
 use super::{Step, objects};
-use crate::{Object, ObjectKind, Shape, Solid};
+use crate::{MeshData, Object, ObjectKind, Shape, Solid};
 
 pub(super) fn check(c: &mut Checker<'_>, solid: &Solid, inside: Around, depth: usize) {
     c.field("objects", |c| {
@@ -29,8 +29,9 @@ fn closed(c: &mut Checker<'_>, operands: &[Object], depth: usize) {
                     let help = "solids are made of closed shapes, closed meshes, solids, and groups of these";
                     c.problem_with_help(format!("`{word}` cannot be part of a solid"), help);
                 }
+                ObjectKind::Mesh(mesh) => _ = whole(c, &mesh.data),
                 ObjectKind::Group(members) => c.field("objects", |c| closed(c, members, depth + 1)),
-                ObjectKind::Shape(_) | ObjectKind::Mesh(_) | ObjectKind::Solid(_) => {}
+                ObjectKind::Shape(_) | ObjectKind::Solid(_) => {}
             });
         });
     }
@@ -45,5 +46,22 @@ fn open(c: &mut Checker<'_>, word: &str, shape: &Shape) -> bool {
         _ => {
             c.problem_with_help(message, "use a shape that encloses something, or a plane, behind which all is inside")
         }
+    }
+}
+
+fn whole(c: &mut Checker<'_>, mesh: &MeshData) -> bool {
+    // What else is wrong with it has been said.
+    if mesh.triangles.iter().flatten().any(|&vertex| vertex as usize >= mesh.positions.len()) {
+        return false;
+    }
+    let help = "close it where it was made: fill its holes, join its seams, and turn its triangles the same way around";
+    match mesh.open_edges() {
+        Some(0) => true,
+        Some(open) => {
+            let edges = if open == 1 { "1 edge does" } else { &format!("{open} edges do") };
+            let message = format!("this mesh is not closed: {edges} not join two triangles that face the same way");
+            c.problem_with_help(format!("{message}, so it cannot be part of a solid"), help)
+        }
+        None => c.problem_with_help("this mesh encloses nothing, so it cannot be part of a solid".to_owned(), help),
     }
 }
