@@ -173,7 +173,8 @@ fn an_import_brings_objects_lights_and_a_camera() {
 
 #[test]
 fn lights_in_instances_are_said_not_to_shine() {
-    let text = "objects:\n  - instances: {positions: [[0, 0, 0]], objects: [group: {objects: [import: {file: room.gltf}]}]}";
+    let text =
+        "objects:\n  - instances: {positions: [[0, 0, 0]], objects: [group: {objects: [import: {file: room.gltf}]}]}";
     let loaded = load_str(text, "test.yaml", &files(), &Limits::default()).unwrap_or_else(|errors| panic!("{errors}"));
     assert_eq!(loaded.scene.scene().lights, Light::default_lights(), "without them all would be dark");
     let warnings = loaded.warnings.to_string();

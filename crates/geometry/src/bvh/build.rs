@@ -6,7 +6,7 @@
 
 use super::merge::merge;
 use super::{Bvh, Child, MAX_DEPTH, MAX_LEAF, Node};
-use crate::simd::bins::{Bins, Centers, Cut, fill, measure, partition};
+use crate::simd::bins::{Bins, Centers, Cut, best_cut, fill, measure, partition};
 use crate::simd::boxes::{Box32, Boxes};
 use arrayvec::ArrayVec;
 use fearless_simd::Level;
@@ -93,7 +93,7 @@ struct Part {
 /// Builds a tree over items, which are brought into the order of the leaves.
 pub(crate) fn build(items: &mut [Item], leaves: Leaves, plan: Plan) -> Bvh {
     debug_assert!(leaves.most <= MAX_LEAF);
-    let mut nodes = Vec::new();
+    let mut nodes = Vec::with_capacity(items.len() / 16);
     if !items.is_empty() {
         let (bounds, centers) = measure(plan.level, items);
         let all = Part { start: 0, end: items.len(), bounds, centers, whole: false };
@@ -148,7 +148,7 @@ impl Builder {
             tasks.push((own, *part));
         }
         let build = |(own, part): (&mut [Item], Part)| {
-            let mut nodes = Vec::new();
+            let mut nodes = Vec::with_capacity(own.len() / 16);
             if !self.is_leaf(&part) {
                 self.node(own, part.start, part, depth + 1, &mut nodes);
             }
@@ -218,7 +218,7 @@ impl Builder {
     fn best_cut(&self, items: &[Item], part: &Part) -> Option<Cut> {
         let mut bins = Bins::new(items.len(), &part.centers, self.plan.purpose);
         fill(self.plan.level, &mut bins, items);
-        bins.best_cut(self.leaves.block, part.bounds.half_area())
+        best_cut(self.plan.level, &bins, self.leaves.block, part.bounds.half_area())
     }
 
     fn blocks(&self, count: usize) -> usize {

@@ -14,6 +14,7 @@ use durer_math::{DVec2, DVec3};
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
 use rayon::prelude::*;
 use std::fmt::Debug;
+use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 /// The lists that a mesh is made of. They stay where they are: a mesh keeps what its tree needs, and looks up the rest of
@@ -64,15 +65,14 @@ impl Mesh {
         let mut items: Vec<Item> = (0..triangles.len()).into_par_iter().map(item).collect();
         let bounds = items.iter().fold(Box32::EMPTY, |all, item| all.union(item.0));
         let mut bvh = build(&mut items, LEAVES, plan);
-        let mut blocks = Vec::with_capacity(bvh.leaves_mut().count());
+        let mut of_leaves = Vec::with_capacity(items.len() / 3);
         for leaf in bvh.leaves_mut() {
-            let first = blocks.len();
-            for block in items[leaf.items()].chunks(Triangles::COUNT) {
-                let numbers = block.iter().map(|item| item.number());
-                blocks.push(Triangles::new(numbers.map(|id| (id, corners(id as usize)))));
-            }
-            *leaf = Child::leaf(first, blocks.len() - first);
+            of_leaves.push(leaf.items());
+            *leaf = Child::leaf(of_leaves.len() - 1, 1);
         }
+        let numbered = |id: u32| (id, corners(id as usize));
+        let block = |leaf: Range<usize>| Triangles::new(items[leaf].iter().map(|item| numbered(item.number())));
+        let blocks = of_leaves.into_par_iter().map(block).collect();
         Mesh { bounds: Bounds::from(bounds), bvh, blocks, closed: OnceLock::new(), level: plan.level, source }
     }
 

@@ -14,6 +14,8 @@ pub(crate) type Centers = Box32;
 
 /// The most bins of an axis. More make trees hardly better and cost time.
 const MOST_BINS: usize = 32;
+/// So many items are counted at least, if there are as many.
+const SAMPLE: usize = 1 << 12;
 /// Where building must be quick.
 const FEW_BINS: usize = 12;
 
@@ -73,7 +75,7 @@ impl Bins {
                 let longest = longest_axis(centers);
                 (FEW_BINS, longest..longest + 1)
             }
-            BuildFor::Picture | BuildFor::ManyRays => ((16 + items / 16).min(MOST_BINS), 0..3),
+            BuildFor::Picture | BuildFor::ManyRays => ((8 + items / 8).min(MOST_BINS), 0..3),
         };
         Bins {
             count,
@@ -83,31 +85,51 @@ impl Bins {
             counts: [[0; MOST_BINS]; 3],
         }
     }
+}
 
-    /// The cut with the least cost, if any divides the items; `area` is that of all.
-    pub(crate) fn best_cut(&self, block: usize, area: f32) -> Option<Cut> {
-        let mut best: Option<Cut> = None;
-        for axis in self.axes.clone().filter(|&axis| self.scale.factor[axis] > 0.0) {
-            let (boxes, counts) = (&self.boxes[axis], &self.counts[axis]);
-            let cost = |bounds: &Box32, count: u32| bounds.half_area() * (count as usize).div_ceil(block) as f32;
-            let mut right_costs = [(0.0, 0); MOST_BINS];
-            let (mut bounds, mut count) = (Box32::EMPTY, 0);
-            for bin in (1..self.count).rev() {
-                (bounds, count) = (bounds.union(boxes[bin]), count + counts[bin]);
-                right_costs[bin] = (cost(&bounds, count), count);
-            }
-            (bounds, count) = (Box32::EMPTY, 0);
-            for bin in 1..self.count {
-                (bounds, count) = (bounds.union(boxes[bin - 1]), count + counts[bin - 1]);
-                let (right, right_count) = right_costs[bin];
-                let cost = area + cost(&bounds, count) + right;
-                if count > 0 && right_count > 0 && best.is_none_or(|best| cost < best.cost) {
-                    best = Some(Cut { axis, bin: bin as u32, scale: self.scale, cost });
-                }
+/// The cut with the least cost, if any divides the items; `area` is that of all, and so many of them, a power of two, are
+/// tested at once.
+pub(crate) fn best_cut(level: Level, bins: &Bins, block: usize, area: f32) -> Option<Cut> {
+    dispatch!(level, simd => best_cut_with(simd, bins, block, area))
+}
+
+#[inline(always)]
+fn best_cut_with<S: Simd>(simd: S, bins: &Bins, block: usize, area: f32) -> Option<Cut> {
+    debug_assert!(block.is_power_of_two());
+    let shift = block.trailing_zeros();
+    let empty = f32x8::splat(simd, f32::INFINITY);
+    let mut best: Option<Cut> = None;
+    for axis in bins.axes.clone().filter(|&axis| bins.scale.factor[axis % 3] > 0.0) {
+        let (boxes, counts) = (&bins.boxes[axis % 3], &bins.counts[axis % 3]);
+        // Of the bins from each one on: the cost, and how many items they have.
+        let mut right = [(0.0, 0); MOST_BINS];
+        let (mut bounds, mut count) = (empty, 0);
+        for bin in (1..bins.count.min(MOST_BINS)).rev() {
+            bounds = bounds.min(f32x8::simd_from(simd, boxes[bin].0));
+            count += counts[bin];
+            right[bin] = (cost(bounds, count, shift), count);
+        }
+        (bounds, count) = (empty, 0);
+        for bin in 1..bins.count.min(MOST_BINS) {
+            bounds = bounds.min(f32x8::simd_from(simd, boxes[bin - 1].0));
+            count += counts[bin - 1];
+            let (right_cost, right_count) = right[bin];
+            let cost = area + cost(bounds, count, shift) + right_cost;
+            if count > 0 && right_count > 0 && best.is_none_or(|best| cost < best.cost) {
+                best = Some(Cut { axis, bin: bin as u32, scale: bins.scale, cost });
             }
         }
-        best
     }
+    best
+}
+
+/// Half the area of a box times how often 2 to the power of `shift` items are tested; 0 if there are none.
+#[inline(always)]
+fn cost<S: Simd>(bounds: f32x8<S>, count: u32, shift: u32) -> f32 {
+    let (low, high) = bounds.split();
+    let [x, y, z, _]: [f32; 4] = (-(low + high)).into();
+    let blocks = (count + (1 << shift) - 1) >> shift;
+    if blocks == 0 { 0.0 } else { (x * y + y * z + z * x) * blocks as f32 }
 }
 
 /// The box around items, and that around their centers.
@@ -167,14 +189,15 @@ fn center_of<S: Simd>(bounds: f32x8<S>) -> f32x4<S> {
     low - high
 }
 
-/// Counts items into bins.
+/// Counts items into bins, or, of very many, an even sample: where to cut hardly depends on the others.
 pub(crate) fn fill(level: Level, bins: &mut Bins, items: &[Item]) {
     dispatch!(level, simd => fill_with(simd, bins, items));
 }
 
 #[inline(always)]
 fn fill_with<S: Simd>(simd: S, bins: &mut Bins, items: &[Item]) {
-    for item in items {
+    let step = (items.len() / SAMPLE).max(1);
+    for item in items.iter().step_by(step) {
         let bounds = f32x8::simd_from(simd, item.0.0);
         let at = bins.scale.bins(simd, center_of(bounds));
         for axis in bins.axes.clone() {
