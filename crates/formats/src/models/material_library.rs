@@ -27,6 +27,8 @@ pub(super) struct Library<'a> {
     assets: &'a dyn Assets,
     limits: &'a Limits,
     entries: BTreeMap<String, Entry>,
+    /// True if a library cannot be read: that its materials are missing goes without saying.
+    lacks_some: bool,
     used: BTreeMap<String, Option<MaterialId>>,
     images: BTreeMap<String, Option<ImageId>>,
     texels: u64,
@@ -42,6 +44,7 @@ impl<'a> Library<'a> {
             assets,
             limits,
             entries: BTreeMap::new(),
+            lacks_some: false,
             used: BTreeMap::new(),
             images: BTreeMap::new(),
             texels: 0,
@@ -53,7 +56,13 @@ impl<'a> Library<'a> {
     pub(super) fn open(&mut self, name: &str, warnings: &mut Warnings) {
         match self.read(name, self.limits.max_model_bytes) {
             Ok((_, bytes)) => parse::parse(&bytes, &mut self.entries, warnings),
-            Err(error) => warnings.add(cannot("read the materials", name, &error)),
+            Err(error) => {
+                self.lacks_some = true;
+                warnings.add(format!(
+                    "{}; its materials became the default one",
+                    cannot("read the materials", name, &error)
+                ));
+            }
         }
     }
 
@@ -89,6 +98,7 @@ impl<'a> Library<'a> {
                 self.scene.materials.push(material);
                 Some(MaterialId(self.scene.materials.len() as u32 - 1))
             }
+            None if self.lacks_some => None,
             None => {
                 warnings.add(format!("there is no material `{}`; it became the default one", shorten(name)));
                 None

@@ -253,11 +253,13 @@ impl<'n, 'd, 'a> Fields<'n, 'd, 'a> {
         }
         if self.broken {
             let nests = |value: &Node| match &value.kind {
-                NodeKind::Mapping(_) => true,
+                // Columns of a file are numbers like those in a list.
+                NodeKind::Mapping(_) => value.get("columns").is_none(),
                 NodeKind::Sequence(items) => items.iter().any(|item| matches!(item.kind, NodeKind::Mapping(_))),
                 NodeKind::Scalar { .. } => false,
             };
-            let beside = self.entries.iter().filter(|(_, value)| !nests(value)).map(|(_, value)| value.span);
+            let beside = self.entries.iter().filter(|(_, value)| !nests(value));
+            let beside = beside.flat_map(|(key, value)| [key.span, value.span]);
             self.cx.doubtful.extend(beside.chain([self.title_span]));
         }
     }

@@ -151,15 +151,22 @@ fn libraries_may_come_late_be_many_and_have_blanks_in_their_names() {
 #[test]
 fn what_is_missing_or_unknown_gives_one_warning_each() {
     let text = format!(
-        "mtllib gone.mtl\n{SQUARE}usemtl x\nf 1 2 3\nl 1 2\np 1\nl 3 4\ncurv 0 1 1 2\nend\nfoo\nfoo\nf 1 2\ns off\n"
+        "mtllib a.mtl\n{SQUARE}usemtl x\nf 1 2 3\nl 1 2\np 1\nl 3 4\ncurv 0 1 1 2\nend\nfoo\nfoo\nf 1 2\ns off\n"
     );
-    let model = model("a.obj", text.as_bytes(), &Files(&[]));
-    let expected = ["cannot read the materials `gone.mtl`", "points and lines", "free-form", "`foo`", "fewer", "`x`"];
-    assert_eq!(model.warnings.len(), expected.len(), "{:?}", model.warnings);
-    for (warning, expected) in model.warnings.iter().zip(expected) {
-        assert!(warning.contains(expected), "{warning}");
+    let others = ["points and lines", "free-form", "`foo`", "fewer"];
+    // Without the library that its materials are missing follows.
+    for (files, first, last) in [
+        (&[][..], Some("cannot read the materials `a.mtl`"), None),
+        (&[("a.mtl", &b"newmtl y\n"[..])], None, Some("`x`")),
+    ] {
+        let model = model("a.obj", text.as_bytes(), &Files(files));
+        let expected: Vec<&str> = first.into_iter().chain(others).chain(last).collect();
+        assert_eq!(model.warnings.len(), expected.len(), "{:?}", model.warnings);
+        for (warning, expected) in model.warnings.iter().zip(expected) {
+            assert!(warning.contains(expected), "{warning}");
+        }
+        assert_eq!(mesh_of(&model).parts, []);
     }
-    assert_eq!(mesh_of(&model).parts, []);
 }
 
 #[test]
