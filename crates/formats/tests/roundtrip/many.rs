@@ -219,10 +219,19 @@ pub(crate) fn instances(objects: BoxedStrategy<Object>, materials: u32) -> Boxed
         .boxed()
 }
 
+/// Each triangle once more, from behind: so every edge joins two that run along it in opposite directions.
+fn two_sided(mesh: Mesh) -> Mesh {
+    let mut data = MeshData::clone(&mesh.data);
+    data.triangles.extend(mesh.data.triangles.iter().map(|&[a, b, c]| [a, c, b]));
+    Mesh { data: Arc::new(data), ..mesh }
+}
+
 /// Solids of closed shapes, meshes, groups and solids.
 pub(crate) fn solid(materials: u32) -> BoxedStrategy<Solid> {
     let closed = shape().prop_filter("closed", Shape::is_closed).prop_map(ObjectKind::Shape);
-    let leaf = object_of(prop_oneof![closed, mesh(materials).prop_map(ObjectKind::Mesh)].boxed(), materials);
+    let encloses = |mesh: &Mesh| mesh.data.open_edges() == Some(0);
+    let mesh = written_mesh(materials).prop_map(two_sided).prop_filter("closed", encloses);
+    let leaf = object_of(prop_oneof![closed, mesh.prop_map(ObjectKind::Mesh)].boxed(), materials);
     let tree = leaf.prop_recursive(2, 6, 3, move |inner| {
         let group = vec(inner.clone(), 1..3).prop_map(ObjectKind::Group);
         object_of(prop_oneof![group, combined(inner.boxed()).prop_map(ObjectKind::Solid)].boxed(), materials)
