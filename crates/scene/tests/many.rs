@@ -45,6 +45,11 @@ fn triangle() -> MeshData {
     }
 }
 
+/// The triangle with another on its back.
+fn pillow() -> MeshData {
+    MeshData { triangles: vec![[0, 1, 2], [0, 2, 1]], ..triangle() }
+}
+
 fn solid(operation: Operation, operands: Vec<Object>) -> Object {
     Object::new(ObjectKind::Solid(Solid { operation, operands }))
 }
@@ -181,11 +186,11 @@ fn solids_are_made_of_what_has_an_inside() {
     let cylinder = |open| shape(Shape::Cylinder { base: DVec3::ZERO, top: DVec3::Y, radius: 1.0, open });
     let plane = shape(Shape::Plane { point: DVec3::ZERO, normal: DVec3::Y });
     let inner = solid(Operation::Union, vec![sphere(1.0)]);
-    let all = vec![sphere(2.0), plane, group(vec![cylinder(false), inner]), mesh(triangle())];
+    let all = vec![sphere(2.0), plane, group(vec![cylinder(false), inner]), mesh(pillow())];
     assert_problems(solid(Operation::Intersection, all), &[]);
     let disc = shape(Shape::Disc { center: DVec3::ZERO, normal: DVec3::Y, radius: 1.0, inner_radius: 0.0 });
     let many = spheres(vec![DVec3::ZERO], Sizes::Same(1.0), None);
-    let bad = vec![cylinder(true), group(vec![disc]), many, copies(vec![sphere(1.0)], 1, 1.0), sphere(0.0)];
+    let bad = vec![cylinder(true), group(vec![disc]), many, copies(vec![sphere(1.0)], 1, 1.0), sphere(0.0), mesh(triangle())];
     assert_problems(
         solid(Operation::Difference, bad),
         &[
@@ -194,6 +199,8 @@ fn solids_are_made_of_what_has_an_inside() {
             "objects[0].difference.objects[1].group.objects[0].disc: this disc has no inside, so it cannot be part of a solid",
             "objects[0].difference.objects[2].spheres: `spheres` cannot be part of a solid",
             "objects[0].difference.objects[3].instances: `instances` cannot be part of a solid",
+            "objects[0].difference.objects[5].mesh: this mesh is not closed: 3 edges do not join two triangles that face \
+             the same way, so it cannot be part of a solid",
         ],
     );
     assert_problems(
