@@ -190,7 +190,8 @@ fn solids_are_made_of_what_has_an_inside() {
     assert_problems(solid(Operation::Intersection, all), &[]);
     let disc = shape(Shape::Disc { center: DVec3::ZERO, normal: DVec3::Y, radius: 1.0, inner_radius: 0.0 });
     let many = spheres(vec![DVec3::ZERO], Sizes::Same(1.0), None);
-    let bad = vec![cylinder(true), group(vec![disc]), many, copies(vec![sphere(1.0)], 1, 1.0), sphere(0.0), mesh(triangle())];
+    let bad =
+        vec![cylinder(true), group(vec![disc]), many, copies(vec![sphere(1.0)], 1, 1.0), sphere(0.0), mesh(triangle())];
     assert_problems(
         solid(Operation::Difference, bad),
         &[

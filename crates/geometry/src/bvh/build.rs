@@ -93,43 +93,51 @@ struct Part {
 /// Builds a tree over items, which are brought into the order of the leaves.
 pub(crate) fn build(items: &mut [Item], leaves: Leaves, plan: Plan) -> Bvh {
     debug_assert!(leaves.most <= MAX_LEAF);
-    let mut nodes = Vec::with_capacity(items.len() / 16);
+    let mut builder = Builder::new(leaves, plan, items.len());
     if !items.is_empty() {
         let (bounds, centers) = measure(plan.level, items);
         let all = Part { start: 0, end: items.len(), bounds, centers, whole: false };
-        Builder { leaves, plan }.node(items, 0, all, 1, &mut nodes);
+        builder.node(items, 0, all, 1);
     }
-    let mut bvh = Bvh { nodes };
+    let mut bvh = Bvh { nodes: builder.nodes };
     if plan.purpose >= leaves.fuller_for {
         merge(&mut bvh, items);
     }
     bvh
 }
 
+/// Builds a tree, or a part of one for which there is a thread.
 struct Builder {
     leaves: Leaves,
     plan: Plan,
+    nodes: Vec<Node>,
+    bins: Box<Bins>,
 }
 
 impl Builder {
+    /// For about so many items.
+    fn new(leaves: Leaves, plan: Plan, items: usize) -> Builder {
+        Builder { leaves, plan, nodes: Vec::with_capacity(items / 16), bins: Bins::new() }
+    }
+
     /// Makes the node over a part and everything below it. `items` are all from the item with the index `first`.
-    fn node(&self, items: &mut [Item], first: usize, part: Part, depth: usize, nodes: &mut Vec<Node>) {
+    fn node(&mut self, items: &mut [Item], first: usize, part: Part, depth: usize) {
         debug_assert!(depth <= MAX_DEPTH, "traversal has room for so many levels");
         let mut parts = self.split_into_eight(items, first, part, depth);
         parts.sort_unstable_by_key(|part| part.start);
-        let index = nodes.len();
-        nodes.push(Node { boxes: Boxes::EMPTY, children: [Child::NONE; 8] });
+        let index = self.nodes.len();
+        self.nodes.push(Node { boxes: Boxes::EMPTY, children: [Child::NONE; 8] });
         let side_by_side = part.end - part.start > SIDE_BY_SIDE;
         let mut subtrees = if side_by_side { self.subtrees(items, first, &parts, depth) } else { ArrayVec::new() };
         for (slot, child) in parts.iter().enumerate() {
-            nodes[index].boxes.set(slot, &child.bounds);
-            nodes[index].children[slot] = if self.is_leaf(child) {
+            self.nodes[index].boxes.set(slot, &child.bounds);
+            self.nodes[index].children[slot] = if self.is_leaf(child) {
                 Child::leaf(child.start, child.end - child.start)
             } else {
-                let below = Child::node(nodes.len());
+                let below = Child::node(self.nodes.len());
                 match subtrees.get_mut(slot) {
-                    Some(subtree) => append(nodes, subtree),
-                    None => self.node(items, first, *child, depth + 1, nodes),
+                    Some(subtree) => append(&mut self.nodes, subtree),
+                    None => self.node(items, first, *child, depth + 1),
                 }
                 below
             };
@@ -148,11 +156,11 @@ impl Builder {
             tasks.push((own, *part));
         }
         let build = |(own, part): (&mut [Item], Part)| {
-            let mut nodes = Vec::with_capacity(own.len() / 16);
+            let mut builder = Builder::new(self.leaves, self.plan, own.len());
             if !self.is_leaf(&part) {
-                self.node(own, part.start, part, depth + 1, &mut nodes);
+                builder.node(own, part.start, part, depth + 1);
             }
-            nodes
+            builder.nodes
         };
         let built: Vec<Vec<Node>> = tasks.into_iter().collect::<Vec<_>>().into_par_iter().map(build).collect();
         built.into_iter().collect()
@@ -163,7 +171,7 @@ impl Builder {
     }
 
     /// Splits the part with the largest area in two until there are eight or nothing is left to split.
-    fn split_into_eight(&self, items: &mut [Item], first: usize, part: Part, depth: usize) -> ArrayVec<Part, 8> {
+    fn split_into_eight(&mut self, items: &mut [Item], first: usize, part: Part, depth: usize) -> ArrayVec<Part, 8> {
         let mut parts = ArrayVec::from_iter([part]);
         while !parts.is_full() {
             let splittable = (0..parts.len()).filter(|&i| !self.is_leaf(&parts[i]));
@@ -187,7 +195,7 @@ impl Builder {
     }
 
     /// Orders the items of a part so that those of one side come first; `None` if the part is better left whole.
-    fn split(&self, items: &mut [Item], part: &Part, depth: usize) -> Option<[Part; 2]> {
+    fn split(&mut self, items: &mut [Item], part: &Part, depth: usize) -> Option<[Part; 2]> {
         let count = items.len();
         let cut = if must_halve(depth) { None } else { self.best_cut(items, part) };
         let blocks = self.blocks(count);
@@ -215,10 +223,10 @@ impl Builder {
     }
 
     /// The cut with the least expected cost, if any divides the items.
-    fn best_cut(&self, items: &[Item], part: &Part) -> Option<Cut> {
-        let mut bins = Bins::new(items.len(), &part.centers, self.plan.purpose);
-        fill(self.plan.level, &mut bins, items);
-        best_cut(self.plan.level, &bins, self.leaves.block, part.bounds.half_area())
+    fn best_cut(&mut self, items: &[Item], part: &Part) -> Option<Cut> {
+        self.bins.prepare(items.len(), &part.centers, self.plan.purpose);
+        fill(self.plan.level, &mut self.bins, items);
+        best_cut(self.plan.level, &self.bins, self.leaves.block, part.bounds.half_area())
     }
 
     fn blocks(&self, count: usize) -> usize {

@@ -69,20 +69,26 @@ impl Scale {
 }
 
 impl Bins {
-    pub(crate) fn new(items: usize, centers: &Centers, purpose: BuildFor) -> Bins {
-        let (count, axes) = match purpose {
+    /// Bins for no items yet; to be used again and again, since to make them anew would take longer than to use them.
+    pub(crate) fn new() -> Box<Bins> {
+        let scale = Scale { base: [0.0; 4], factor: [0.0; 4] };
+        let (boxes, counts) = ([[Box32::EMPTY; MOST_BINS]; 3], [[0; MOST_BINS]; 3]);
+        Box::new(Bins { count: 0, axes: 0..0, scale, boxes, counts })
+    }
+
+    /// Empties them, for so many items with centers in a box.
+    pub(crate) fn prepare(&mut self, items: usize, centers: &Centers, purpose: BuildFor) {
+        (self.count, self.axes) = match purpose {
             BuildFor::Preview => {
                 let longest = longest_axis(centers);
                 (FEW_BINS, longest..longest + 1)
             }
             BuildFor::Picture | BuildFor::ManyRays => ((8 + items / 8).min(MOST_BINS), 0..3),
         };
-        Bins {
-            count,
-            axes,
-            scale: Scale::new(count, centers),
-            boxes: [[Box32::EMPTY; MOST_BINS]; 3],
-            counts: [[0; MOST_BINS]; 3],
+        self.scale = Scale::new(self.count, centers);
+        for (boxes, counts) in self.boxes.iter_mut().zip(&mut self.counts) {
+            boxes[..self.count].fill(Box32::EMPTY);
+            counts[..self.count].fill(0);
         }
     }
 }
