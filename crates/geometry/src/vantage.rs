@@ -52,11 +52,14 @@ pub(crate) struct Boxed {
     pub(crate) bounds: Bounds,
 }
 
-/// An infinite plane. One can only hide another of the same mask, since a ray may ask for one mask only.
+/// An infinite plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Flat {
     pub(crate) id: u32,
     pub(crate) mask: u32,
+    /// True if what lies behind it need not be known. It can only hide planes of its own mask, since a ray may ask for one
+    /// mask only.
+    pub(crate) hides: bool,
     pub(crate) normal: DVec3,
     pub(crate) point: DVec3,
 }
@@ -104,14 +107,15 @@ impl Vantage {
     }
 }
 
-/// Calls `visit` for every cell and the planes that may be the nearest of their mask somewhere in its block.
+/// Calls `visit` for every cell and the planes that may be the nearest of their mask somewhere in its block, or that do not
+/// hide each other.
 ///
 /// In a direction d a plane is at 1/t = -n·d / h, with h the height of the point above it: linear in d, so its greatest
 /// and least values on a block are at the corners.
 fn nearest_planes(point: DVec3, planes: &[Flat], visit: &mut dyn FnMut(usize, u32)) {
     let mut planes = planes.to_vec();
-    planes.sort_by_key(|plane| plane.mask);
-    for group in planes.chunk_by(|a, b| a.mask == b.mask) {
+    planes.sort_by_key(|plane| (plane.mask, plane.hides));
+    for group in planes.chunk_by(|a, b| a.mask == b.mask && a.hides == b.hides) {
         let nearness: Vec<DVec3> = group.iter().map(|plane| nearness(plane, point)).collect();
         let mut greatest = vec![0.0; group.len()];
         for block in 0..6 * BLOCKS * BLOCKS {
@@ -120,7 +124,7 @@ fn nearest_planes(point: DVec3, planes: &[Flat], visit: &mut dyn FnMut(usize, u3
             let mut nearest = 0.0_f64;
             for (nearness, greatest) in nearness.iter().zip(&mut greatest) {
                 let range = nearness_range(*nearness, face, row, column);
-                nearest = nearest.max(range.0);
+                nearest = if group[0].hides { nearest.max(range.0) } else { 0.0 };
                 *greatest = range.1;
             }
             for (plane, _) in group.iter().zip(&greatest).filter(|(_, greatest)| **greatest >= nearest * (1.0 - MARGIN))
@@ -284,7 +288,7 @@ mod tests {
         for _ in 0..20 {
             let mut place = || DVec3::new(random(-9.0, 9.0), random(-9.0, 9.0), random(-9.0, 9.0));
             let point = place();
-            let plane = |id: u32| Flat { id, mask: 1 + id % 2, normal: place(), point: place() };
+            let plane = |id: u32| Flat { id, mask: 1 + id % 2, hides: true, normal: place(), point: place() };
             let planes: Vec<Flat> = (0..6).map(plane).collect();
             let vantage = Vantage::new(point, &[], &planes);
             for _ in 0..200 {

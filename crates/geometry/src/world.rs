@@ -81,8 +81,9 @@ impl World {
             + self.bvh.memory()
     }
 
-    /// Prepares for many rays through one point; `None` if that would not pay.
-    pub fn vantage(&self, point: DVec3) -> Option<Vantage> {
+    /// Prepares for many rays through one point; `None` if that would not pay. Behind planes that share a bit with `hiding`,
+    /// planes of the same mask will be left out: all may hide where only the first hit counts.
+    pub fn vantage(&self, point: DVec3, hiding: u32) -> Option<Vantage> {
         let plane_count = self.primitives.len() - self.bounded_ids.len();
         if self.bounded_ids.len() > MOST_BOUNDED || plane_count > MOST_PLANES {
             return None;
@@ -91,7 +92,7 @@ impl World {
         let boxed: Vec<Boxed> = bounded.map(|(id, primitive)| Boxed { id, bounds: primitive.bounds() }).collect();
         let flat = |(id, primitive): (usize, &Primitive)| {
             let [normal, point] = primitive.as_plane()?;
-            Some(Flat { id: id as u32, mask: primitive.mask, normal, point })
+            Some(Flat { id: id as u32, mask: primitive.mask, hides: primitive.mask & hiding != 0, normal, point })
         };
         let planes: Vec<Flat> = self.primitives.iter().enumerate().filter_map(flat).collect();
         Some(Vantage::new(point, &boxed, &planes))
@@ -307,7 +308,7 @@ impl World {
     /// until it returns true; gives whether it did.
     ///
     /// `end` is a vantage at the point that the ray is aimed at, if there is one: with it, planes behind another plane
-    /// that was met may be left out.
+    /// that hides them may be left out.
     #[inline]
     pub fn any_hit(
         &self,

@@ -104,7 +104,7 @@ pub fn compile(scene: &CheckedScene) -> CompiledScene {
         attenuates: objects.iter().any(|object| attenuates(&object.looks)),
         has_holes: objects.iter().any(|object| object.looks.has_holes),
         media_at_eye: media_at_eye(&objects, &world, &camera),
-        eye_vantage: camera.eye().and_then(|eye| world.vantage(eye)),
+        eye_vantage: camera.eye().and_then(|eye| world.vantage(eye, OPAQUE | CLEAR)),
         camera,
         light_vantages: vantages(&lights, &world),
         lights,
@@ -153,7 +153,7 @@ fn media_at_eye(objects: &[PlacedObject], world: &World, camera: &Camera) -> Vec
 const MOST_VANTAGES: usize = 32;
 
 fn vantages(lights: &[Light], world: &World) -> Vec<Option<Vantage>> {
-    let made = lights.iter().take(MOST_VANTAGES).map(|light| world.vantage(light.position()?));
+    let made = lights.iter().take(MOST_VANTAGES).map(|light| world.vantage(light.position()?, OPAQUE));
     made.chain(std::iter::repeat_with(|| None)).take(lights.len()).collect()
 }
 

@@ -33,6 +33,13 @@ fn the_color_of_the_surface_does_not() {
 }
 
 #[test]
+fn clear_planes_behind_each_other_all_count() {
+    let panes: String =
+        [2, 4, 6].map(|y| format!("  - plane: {{point: [0, {y}, 0], material: {{transparency: 0.5}}}}\n")).concat();
+    assert_color(visibility(&under(&panes), NEAR_FLOOR, FLOOR), [0.125; 3]);
+}
+
+#[test]
 fn every_clear_surface_on_the_way_counts() {
     let text = under(
         "  - sphere: {center: [0, 7, 0], radius: 1, material: {transparency: 0.5}}

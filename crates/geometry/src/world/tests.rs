@@ -99,7 +99,7 @@ fn for_random_scenes(check: impl Fn(&[Primitive], &[World], &mut Random)) {
 fn the_closest_hit_is_that_of_testing_all_at_every_instruction_set() {
     for_random_scenes(|primitives, worlds, random| {
         let eye = random.point(15.0);
-        let vantage = worlds[0].vantage(eye);
+        let vantage = worlds[0].vantage(eye, u32::MAX);
         for i in 0..200 {
             let origin = if i % 2 == 0 { eye } else { random.point(15.0) };
             let ray = Ray { origin, direction: random.direction() };
@@ -120,7 +120,7 @@ fn the_closest_hit_is_that_of_testing_all_at_every_instruction_set() {
 fn any_hit_visits_exactly_what_is_met() {
     for_random_scenes(|primitives, worlds, random| {
         let light = random.point(15.0);
-        let vantage = worlds[0].vantage(light);
+        let vantage = worlds[0].vantage(light, 1);
         for _ in 0..100 {
             let origin = random.point(15.0);
             let distance = (light - origin).length();
@@ -138,6 +138,16 @@ fn any_hit_visits_exactly_what_is_met() {
                 assert_eq!(visited, met);
                 assert_eq!(world.any_hit(&ray, distance, None, |_, _| true), !met.is_empty());
             }
+            // What does not hide is visited, all of it.
+            let clear = |id: &u32| primitives[*id as usize].mask & 1 == 0;
+            let mut visited = Vec::new();
+            worlds[0].any_hit(&ray, distance, vantage.as_ref(), |id, _| {
+                visited.push(id);
+                false
+            });
+            visited.sort_unstable();
+            visited.retain(clear);
+            assert_eq!(visited, met.iter().copied().filter(clear).collect::<Vec<u32>>());
             for class in [1, 2] {
                 let expected = met.iter().any(|&id| primitives[id as usize].mask == class);
                 let found = worlds[0].any_hit(&ray, distance, vantage.as_ref(), |_, p| p.mask == class);
@@ -205,7 +215,7 @@ fn of_axis_aligned_faces_all_but_in_one_place_the_nearer_is_hit_and_of_equal_one
             primitives.extend((0..20).map(|_| random.primitive(0.1)));
             let world = World::build(primitives.clone(), BuildFor::Picture);
             let vantage_point = DVec3::new(0.2, 5.0, 0.1);
-            let vantage = world.vantage(vantage_point);
+            let vantage = world.vantage(vantage_point, u32::MAX);
             for i in 0..2000 {
                 let origin = if i % 2 == 0 { vantage_point } else { random.point(2.0) + DVec3::Y * 5.0 };
                 let target = DVec3::new(random.number(-2.5, 2.5), y, random.number(-2.5, 2.5));
@@ -227,7 +237,7 @@ fn one_plane_written_twice_is_hit_as_the_first_whatever_finds_it() {
     ];
     let world = World::build(primitives.clone(), BuildFor::Picture);
     let eye = DVec3::new(0.3, 1.9, 0.4);
-    let vantage = world.vantage(eye);
+    let vantage = world.vantage(eye, u32::MAX);
     let mut random = Random(13);
     for _ in 0..20_000 {
         let direction = (random.point(1.0) - DVec3::Y * 1.2).normalize();
@@ -242,7 +252,7 @@ fn a_plane_through_the_light_hides_no_other_plane() {
     let level = |y: f64| Primitive::plane(DVec3::Y * y, DVec3::Y, &DAffine3::IDENTITY);
     let world = World::build(vec![level(0.3), level(0.0), level(-2.0)], BuildFor::Picture);
     let light = DVec3::new(0.0, 0.3_f64.next_up(), 0.0);
-    let vantage = world.vantage(light);
+    let vantage = world.vantage(light, 1);
     let origin = DVec3::new(0.5, -1.9, 0.2);
     let distance = (light - origin).length();
     let ray = Ray { origin, direction: (light - origin) / distance };

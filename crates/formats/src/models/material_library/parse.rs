@@ -78,18 +78,18 @@ fn statement(entry: &mut Entry, word: &[u8], cursor: &mut Cursor<'_>, warnings: 
         b"ks" => read(&mut entry.specular, color(cursor), word, warnings),
         b"ke" => read(&mut entry.emission, color(cursor), word, warnings),
         b"tf" => read(&mut entry.filter, color(cursor), word, warnings),
-        b"ns" => read(&mut entry.shininess, number(cursor), word, warnings),
+        b"ns" => read(&mut entry.shininess, within(cursor, 1e6), word, warnings),
         b"d" => {
             if cursor.clone().word() == b"-halo" {
                 cursor.word();
                 warnings.add("`d -halo` of materials is taken for `d`");
             }
-            read(&mut entry.opacity, number(cursor), word, warnings);
+            read(&mut entry.opacity, within(cursor, 1.0), word, warnings);
         }
-        b"tr" => read(&mut entry.transparency, number(cursor), word, warnings),
-        b"ni" => read(&mut entry.refraction_index, number(cursor), word, warnings),
+        b"tr" => read(&mut entry.transparency, within(cursor, 1.0), word, warnings),
+        b"ni" => read(&mut entry.refraction_index, within(cursor, 100.0), word, warnings),
         b"illum" => {
-            let model = number(cursor).filter(|model| (0.0..=10.0).contains(model)).map(|model| model as u32);
+            let model = within(cursor, 10.0).map(|model| model as u32);
             read(&mut entry.illumination, model, word, warnings);
         }
         b"map_kd" => read(&mut entry.color_map, map(cursor, warnings), word, warnings),
@@ -103,20 +103,24 @@ fn statement(entry: &mut Entry, word: &[u8], cursor: &mut Cursor<'_>, warnings: 
 fn read<T>(field: &mut Option<T>, value: Option<T>, word: &[u8], warnings: &mut Warnings) {
     match value {
         Some(value) => *field = Some(value),
-        None => warnings.add(format!("a `{}` of a material cannot be read; it is left out", shown(word))),
+        None => warnings.add(format!("a `{}` of a material is no usable number; it is left out", shown(word))),
     }
 }
 
-fn number(cursor: &mut Cursor<'_>) -> Option<f64> {
-    cursor.number().filter(|number| number.is_finite())
+/// A number from 0 to `most`.
+fn within(cursor: &mut Cursor<'_>, most: f64) -> Option<f64> {
+    cursor.number().filter(|number| (0.0..=most).contains(number))
 }
 
 /// Three numbers, or one for all three. They are taken for linear light: the format does not say what they are, and
 /// offline renderers agree on this.
 fn color(cursor: &mut Cursor<'_>) -> Option<Rgb> {
-    let red = number(cursor)? as f32;
-    let Some(green) = number(cursor) else { return Some(Rgb::gray(red)) };
-    Some(Rgb::new(red, green as f32, number(cursor)? as f32))
+    const MOST: f64 = 1e6;
+    let red = within(cursor, MOST)? as f32;
+    if cursor.clone().word().is_empty() {
+        return Some(Rgb::gray(red));
+    }
+    Some(Rgb::new(red, within(cursor, MOST)? as f32, within(cursor, MOST)? as f32))
 }
 
 /// Options, and the name of a file, which may have blanks in it.
