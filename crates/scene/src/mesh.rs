@@ -76,6 +76,13 @@ impl MeshData {
         }
         (!edges.is_empty()).then(|| edges.values().filter(|&&balance| balance != 0).count())
     }
+
+    /// The volume inside, if the mesh has one; negative if its triangles face inward.
+    pub fn volume(&self) -> f64 {
+        let corner = |vertex: u32| DVec3::from(self.positions[vertex as usize].map(f64::from));
+        let sixfold = |&[a, b, c]: &[u32; 3]| corner(a).dot(corner(b).cross(corner(c)));
+        self.triangles.iter().map(sixfold).sum::<f64>() / 6.0
+    }
 }
 
 /// A run of triangles.
@@ -132,5 +139,8 @@ mod tests {
         assert_eq!(with_needle.open_edges(), Some(0));
         assert_eq!(MeshData { triangles: vec![[0, 0, 1]], ..whole }.open_edges(), None);
         assert_eq!(MeshData::default().open_edges(), None);
+        let mut turned = tetrahedron();
+        turned.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
+        assert_eq!((tetrahedron().volume(), turned.volume()), (1.0 / 6.0, -1.0 / 6.0));
     }
 }

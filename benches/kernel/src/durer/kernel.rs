@@ -33,8 +33,8 @@ impl MeshSource for Lists {
         &[]
     }
 
-    fn is_closed(&self) -> bool {
-        false
+    fn enclosed_volume(&self) -> Option<f64> {
+        None
     }
 }
 

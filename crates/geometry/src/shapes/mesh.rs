@@ -16,6 +16,7 @@ use rayon::prelude::*;
 use std::fmt::Debug;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
+use winding::Line;
 
 /// The lists that a mesh is made of. They stay where they are: a mesh keeps what its tree needs, and looks up the rest of
 /// the one triangle that was hit.
@@ -28,9 +29,9 @@ pub trait MeshSource: Debug + Send + Sync {
     fn normals(&self) -> &[[f32; 3]];
     /// Texture coordinates, one for each vertex or none.
     fn uvs(&self) -> &[[f32; 2]];
-    /// True if the mesh has an inside: each edge joins two triangles that run along it in opposite directions. Asked once, if
-    /// anyone needs to know.
-    fn is_closed(&self) -> bool;
+    /// The volume inside, if the mesh has an inside: if each edge joins two triangles that run along it in opposite
+    /// directions. Negative if the triangles face inward. Asked once, if anyone needs to know.
+    fn enclosed_volume(&self) -> Option<f64>;
 }
 
 /// A triangle mesh, ready for rays.
@@ -40,8 +41,8 @@ pub struct Mesh {
     bvh: Bvh,
     blocks: Vec<Triangles>,
     bounds: Bounds,
-    /// Whether it has an inside; found out when first asked.
-    closed: OnceLock<bool>,
+    /// The volume inside, if it has an inside; found out when first asked.
+    enclosed: OnceLock<Option<f64>>,
     level: Level,
 }
 
@@ -73,7 +74,7 @@ impl Mesh {
         let numbered = |id: u32| (id, corners(id as usize));
         let block = |leaf: Range<usize>| Triangles::new(items[leaf].iter().map(|item| numbered(item.number())));
         let blocks = of_leaves.into_par_iter().map(block).collect();
-        Mesh { bounds: Bounds::from(bounds), bvh, blocks, closed: OnceLock::new(), level: plan.level, source }
+        Mesh { bounds: Bounds::from(bounds), bvh, blocks, enclosed: OnceLock::new(), level: plan.level, source }
     }
 
     /// Bytes held beside the source.
@@ -86,9 +87,15 @@ impl Mesh {
         &*self.source
     }
 
-    /// True if it has an inside, as its source says.
+    /// True if it has an inside, as its source says. Who needs the inside, or normals that point out of it, asks this before
+    /// any ray is sent.
     pub fn is_closed(&self) -> bool {
-        *self.closed.get_or_init(|| self.source.is_closed())
+        self.enclosed.get_or_init(|| self.source.enclosed_volume()).is_some()
+    }
+
+    /// True if it is known to be closed, with triangles that face inward.
+    fn is_inside_out(&self) -> bool {
+        matches!(self.enclosed.get(), Some(Some(volume)) if *volume < 0.0)
     }
 
     /// The shading normal at a point of a triangle, of any length but zero, if the mesh has such normals.
@@ -145,32 +152,33 @@ impl Mesh {
         best.hit().map(|hit| hit.crossing)
     }
 
-    /// All triangles that the ray meets, in any order.
+    /// Where the ray passes through triangles, each passage once, and whether it does so from behind; in any order.
     #[inline(always)]
-    fn all<S: Simd>(&self, simd: S, ray: &Ray, met: &mut Vec<Crossing>) {
-        let triangle_ray = TriangleRay::new(simd, ray);
-        self.bvh.any(
-            simd,
-            &BoxRay::new(ray),
-            &self.blocks,
-            f64::INFINITY,
-            #[inline(always)]
-            |blocks| {
-                for block in &self.blocks[blocks] {
-                    let (mut hits, t) = triangle_ray.hits(simd, block, f64::INFINITY);
-                    while hits != 0 {
-                        let slot = hits.trailing_zeros() as usize & 3;
-                        hits &= hits - 1;
-                        let crossing = Crossing { t: t[slot], part: block.ids[slot] };
-                        // Unused slots repeat the first.
-                        if slot < block.count() {
-                            met.push(crossing);
-                        }
+    fn passages<S: Simd>(&self, simd: S, ray: &Ray) -> Vec<(Crossing, bool)> {
+        let (line, mut passages) = (Line::new(ray), Vec::new());
+        self.bvh.any(simd, &BoxRay::new(ray), &self.blocks, f64::INFINITY, |blocks| {
+            for block in &self.blocks[blocks] {
+                for &part in &block.ids[..block.count()] {
+                    if let Some((t, from_behind)) = line.passage(self.triangle(part).vertices)
+                        && t > 0.0
+                    {
+                        passages.push((Crossing { t, part }, from_behind));
                     }
                 }
-                false
-            },
-        );
+            }
+            false
+        });
+        passages
+    }
+
+    /// The passages along a ray, if there is an inside, and the winding number around its origin.
+    fn wound(&self, ray: &Ray) -> (Vec<(Crossing, bool)>, i32) {
+        if !self.is_closed() {
+            return (Vec::new(), 0);
+        }
+        let passages = dispatch!(self.level, simd => self.passages(simd, ray));
+        let winding = passages.iter().map(|&(_, from_behind)| if from_behind { 1 } else { -1 }).sum();
+        (passages, winding)
     }
 
     #[inline(always)]
@@ -314,23 +322,20 @@ impl Shape for Mesh {
         dispatch!(self.level, simd => self.any(simd, ray, t_max))
     }
 
+    /// The normal of a closed mesh points outward, whichever way its triangles face.
     fn surface(&self, point: DVec3, part: u32) -> (DVec3, DVec3) {
-        self.triangle(part).surface(point, 0)
+        let (point, normal) = self.triangle(part).surface(point, 0);
+        (point, if self.is_inside_out() { -normal } else { normal })
     }
 
     fn uv(&self, point: DVec3, part: u32) -> DVec2 {
         self.triangle(part).uv(point, 0)
     }
 
-    /// Inside is where the first triangle in some direction is seen from behind.
+    /// Inside is what the mesh winds around, as often as it may.
     fn contains(&self, point: DVec3) -> bool {
-        // A direction that no edge of a mesh made by people is likely to lie in.
-        let ray = Ray { origin: point, direction: DVec3::new(0.371_931, 0.612_147, 0.697_877) };
-        let inside = |crossing: Crossing| {
-            let (_, normal) = self.surface(ray.at(crossing.t), crossing.part);
-            normal.dot(ray.direction) > 0.0
-        };
-        self.is_closed() && self.intersect(&ray, f64::INFINITY).is_some_and(inside)
+        let within = self.bounds.min.cmple(point).all() && point.cmple(self.bounds.max).all();
+        within && self.wound(&Ray { origin: point, direction: DVec3::Z }).1 != 0
     }
 
     fn rounding(&self, part: u32) -> f64 {
@@ -341,27 +346,25 @@ impl Shape for Mesh {
         self.source.triangles().len() as u32
     }
 
-    /// On an edge a ray meets two triangles in the same place; only what changes sides is a crossing.
+    /// Where what the ray is in changes from nothing to something or back: what lies within several bodies of one mesh is
+    /// inside of them all.
     fn crossings(&self, ray: &Ray, visit: &mut dyn FnMut(Crossing)) -> bool {
-        let mut met = Vec::new();
-        if self.is_closed() {
-            dispatch!(self.level, simd => self.all(simd, ray, &mut met));
-        }
-        met.sort_by(|a: &Crossing, b: &Crossing| a.t.total_cmp(&b.t).then(a.part.cmp(&b.part)));
-        let leaves = |crossing: &Crossing| {
-            self.triangle(crossing.part).surface(ray.at(crossing.t), 0).1.dot(ray.direction) > 0.0
-        };
-        let starts_inside = met.first().is_some_and(leaves);
-        let mut inside = starts_inside;
-        for crossing in met {
-            if leaves(&crossing) == inside {
+        let (mut passages, starts_in) = self.wound(ray);
+        // Ways in come first, so that bodies that touch are one.
+        passages.sort_by(|(a, a_out), (b, b_out)| a.t.total_cmp(&b.t).then(a_out.cmp(b_out)).then(a.part.cmp(&b.part)));
+        let mut winding = starts_in;
+        for (crossing, from_behind) in passages {
+            let before = winding;
+            winding += if from_behind { -1 } else { 1 };
+            if (before == 0) != (winding == 0) {
                 visit(crossing);
-                inside = !inside;
             }
         }
-        starts_inside
+        starts_in != 0
     }
 }
+
+mod winding;
 
 #[cfg(test)]
 mod tests;

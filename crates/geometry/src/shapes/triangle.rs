@@ -5,6 +5,9 @@
 //! edge compute the same number for it but for its sign, so no ray passes between them. The paper computes an edge
 //! function of 0 again in higher precision; here that is not needed: of two products, rounding may make the larger and
 //! the smaller equal but never change their order, so a sign is right or the number is 0, and 0 counts as inside.
+//!
+//! A triangle seen edge-on, or without area, has edge functions that are rounding and nothing else: it is not hit. Its
+//! neighbors are, on the edges that they share.
 
 use super::Shape;
 use crate::{Bounds, Crossing, Ray};
@@ -18,6 +21,10 @@ pub(crate) struct Triangle {
     /// Texture coordinates at the corners.
     pub(crate) uvs: [DVec2; 3],
 }
+
+/// The sum of the edge functions, which is twice the area that is seen, must be more than this of the sum of the products
+/// that they are differences of: many times what rounding leaves.
+pub(crate) const LEAST_AREA: f64 = 1.0 / (1u64 << 46) as f64;
 
 /// The axis along which a direction is longest.
 #[inline(always)]
@@ -66,9 +73,11 @@ impl Shape for Triangle {
         if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
             return None;
         }
-        // The division is by zero if the ray lies in the triangle's plane; no comparison below then is true.
-        let t = (u * az + v * bz + w * cz) / (u + v + w) * inverse;
-        (t > 0.0 && t < t_max).then_some(Crossing { t, part: 0 })
+        let products =
+            (cx * by).abs() + (cy * bx).abs() + (ax * cy).abs() + (ay * cx).abs() + (bx * ay).abs() + (by * ax).abs();
+        let area = u + v + w;
+        let t = (u * az + v * bz + w * cz) / area * inverse;
+        (area.abs() > products * LEAST_AREA && t > 0.0 && t < t_max).then_some(Crossing { t, part: 0 })
     }
 
     fn surface(&self, point: DVec3, _part: u32) -> (DVec3, DVec3) {

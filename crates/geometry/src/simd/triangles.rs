@@ -6,7 +6,7 @@
 
 use crate::Ray;
 use crate::packet::{LANES, Packet};
-use crate::shapes::triangle::longest;
+use crate::shapes::triangle::{LEAST_AREA, longest};
 use fearless_simd::{Simd, f32x4, f64x4, f64x8, mask64x8, prelude::*};
 
 /// Four triangles. Unused slots repeat the first.
@@ -27,7 +27,8 @@ impl Triangles {
     pub(crate) fn new(triangles: impl IntoIterator<Item = (u32, [[f32; 3]; 3])>) -> Triangles {
         let mut block = Triangles { corners: [[[0.0; 4]; 3]; 3], ids: [0; 4] };
         for (slot, (id, corners)) in triangles.into_iter().enumerate() {
-            for slot in slot..4 {
+            // The first goes into all slots, the others into their own.
+            for slot in if slot == 0 { 0..4 } else { slot..slot + 1 } {
                 block.ids[slot] = id;
                 for (corner, position) in corners.iter().enumerate() {
                     for (axis, &coordinate) in position.iter().enumerate() {
@@ -98,9 +99,12 @@ impl<S: Simd> TriangleRay<S> {
         if inside.to_bitmask() == 0 {
             return (0, [0.0; 4]);
         }
-        // The division is by zero if the ray lies in the triangle's plane; no comparison below then is true.
-        let t = (u * az + v * bz + w * cz) / (u + v + w) * self.inverse;
-        let hit = inside & t.simd_gt(zero) & t.simd_lt(f64x4::splat(simd, t_max));
+        let products =
+            (cx * by).abs() + (cy * bx).abs() + (ax * cy).abs() + (ay * cx).abs() + (bx * ay).abs() + (by * ax).abs();
+        let area = u + v + w;
+        let is_seen = area.abs().simd_gt(products * f64x4::splat(simd, LEAST_AREA));
+        let t = (u * az + v * bz + w * cz) / area * self.inverse;
+        let hit = inside & is_seen & t.simd_gt(zero) & t.simd_lt(f64x4::splat(simd, t_max));
         (hit.to_bitmask() as u32, t.into())
     }
 }
@@ -189,7 +193,11 @@ impl<S: Simd> TrianglePacket<S> {
         if inside.to_bitmask() == 0 {
             return (inside, None);
         }
-        (inside, Some((u * az + v * bz + w * cz) / (u + v + w) * self.inverse))
+        let products =
+            (cx * by).abs() + (cy * bx).abs() + (ax * cy).abs() + (ay * cx).abs() + (bx * ay).abs() + (by * ax).abs();
+        let area = u + v + w;
+        let is_seen = area.abs().simd_gt(products * f64x8::splat(simd, LEAST_AREA));
+        (inside & is_seen, Some((u * az + v * bz + w * cz) / area * self.inverse))
     }
 }
 

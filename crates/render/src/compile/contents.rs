@@ -50,8 +50,8 @@ impl MeshSource for Shared {
         &self.0.uvs
     }
 
-    fn is_closed(&self) -> bool {
-        self.0.open_edges() == Some(0)
+    fn enclosed_volume(&self) -> Option<f64> {
+        (self.0.open_edges() == Some(0)).then(|| self.0.volume())
     }
 }
 

@@ -32,7 +32,9 @@ fn operand(object: &Object, contents: &Contents, solid_from_parent: &DAffine3) -
         }
         ObjectKind::Solid(solid) => combined(solid, contents, &solid_from_object),
         kind => match contents.get(kind) {
-            Some(content) => Operand::Shape(content.place(&solid_from_object)),
+            // A mesh finds out here which way is out.
+            Some(content) if content.is_closed() => Operand::Shape(content.place(&solid_from_object)),
+            Some(_) => Operand::Combined(Operation::Union, Vec::new()),
             None => Operand::Combined(Operation::Union, Vec::new()),
         },
     }

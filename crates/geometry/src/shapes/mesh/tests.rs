@@ -24,8 +24,10 @@ impl MeshSource for Lists {
         &[]
     }
     /// The tests ask about insides only where there are some.
-    fn is_closed(&self) -> bool {
-        true
+    fn enclosed_volume(&self) -> Option<f64> {
+        let corner = |vertex: u32| wide(self.positions[vertex as usize]);
+        let sixfold = |&[a, b, c]: &[u32; 3]| corner(a).dot(corner(b).cross(corner(c)));
+        Some(self.triangles.iter().map(sixfold).sum::<f64>() / 6.0)
     }
 }
 
@@ -253,5 +255,91 @@ fn rays_in_the_planes_between_boxes_meet_the_edges_there() {
                 }
             }
         }
+    }
+}
+
+/// Cubes of triangles, each from its least to its greatest corner.
+fn cubes(of: &[[f32; 2]]) -> Lists {
+    let mut lists = Lists { positions: Vec::new(), triangles: Vec::new() };
+    for &[low, high] in of {
+        let first = lists.positions.len() as u32;
+        lists
+            .positions
+            .extend((0..8).map(|corner| [0, 1, 2].map(|axis| if corner >> axis & 1 == 0 { low } else { high })));
+        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let halves = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+        lists.triangles.extend(halves.map(|triangle| triangle.map(|corner| first + corner)));
+    }
+    lists
+}
+
+fn inside_out(lists: Lists) -> Lists {
+    Lists { triangles: lists.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(), ..lists }
+}
+
+fn crossings_of(mesh: &Mesh, ray: &Ray) -> (bool, Vec<f64>) {
+    let mut found = Vec::new();
+    let starts_inside = mesh.crossings(ray, &mut |crossing| found.push(crossing.t));
+    (starts_inside, found)
+}
+
+#[test]
+fn bodies_of_one_mesh_that_overlap_are_one_whichever_way_they_face() {
+    for lists in [cubes(&[[-1.0, 1.0], [0.0, 2.0]]), inside_out(cubes(&[[-1.0, 1.0], [0.0, 2.0]]))] {
+        let mesh = Mesh::build(Arc::new(lists), BuildFor::Picture);
+        assert!(mesh.is_closed());
+        // Off the edges, along diagonals of faces, and through corners.
+        for (origin, expected) in [
+            (DVec3::new(-5.0, 0.5, 0.25), vec![4.0, 7.0]),
+            (DVec3::new(-5.0, 0.5, 0.5), vec![4.0, 7.0]),
+            (DVec3::new(-5.0, 1.0, 1.0), vec![5.0, 7.0]),
+            (DVec3::new(-5.0, -0.5, -0.5), vec![4.0, 6.0]),
+        ] {
+            let ray = Ray { origin, direction: DVec3::X };
+            assert_eq!(crossings_of(&mesh, &ray), (false, expected.clone()), "{ray:?}");
+            let back = Ray { origin: origin + DVec3::X * 10.0, direction: DVec3::NEG_X };
+            let expected: Vec<f64> = expected.iter().rev().map(|t| 10.0 - t).collect();
+            assert_eq!(crossings_of(&mesh, &back).1.len(), expected.len(), "{back:?}");
+        }
+        let (surface, normal) = (DVec3::new(-1.0, 0.5, 0.25), DVec3::NEG_X);
+        let hit = mesh.intersect(&Ray { origin: DVec3::new(-5.0, 0.5, 0.25), direction: DVec3::X }, 9.0);
+        assert_eq!(hit.map(|hit| mesh.surface(surface, hit.part).1), Some(normal), "normals point outward");
+        let mut random = Random(41);
+        for _ in 0..2_000 {
+            let point = random.in_cube() * 2.5;
+            let within = |low: f64, high: f64| point.min_element() > low && point.max_element() < high;
+            assert_eq!(mesh.contains(point), within(-1.0, 1.0) || within(0.0, 2.0), "{point}");
+        }
+    }
+}
+
+#[test]
+fn rays_through_edges_and_corners_go_in_and_out_in_turn() {
+    let lists = ball(12);
+    let corners: Vec<DVec3> = lists.positions.iter().map(|&position| wide(position)).collect();
+    let edges: Vec<[u32; 2]> = lists.triangles.iter().map(|&[a, b, _]| [a, b]).collect();
+    let mesh = Mesh::build(Arc::new(lists), BuildFor::Picture);
+    let mut random = Random(42);
+    let mut met = 0;
+    for i in 0..20_000 {
+        let [a, b] = edges[i % edges.len()].map(|vertex| corners[vertex as usize]);
+        let target = if i % 2 == 0 { a } else { (a + b) * 0.5 };
+        let origin = if i % 3 == 0 { random.in_cube() * 0.05 } else { random.direction() * 6.0 };
+        let ray = Ray { origin, direction: target - origin };
+        let (starts_inside, found) = crossings_of(&mesh, &ray);
+        assert_eq!(starts_inside, i % 3 == 0, "{ray:?}");
+        assert_eq!(found.len() % 2 == 1, starts_inside, "{ray:?}: {found:?}");
+        assert!(found.is_sorted());
+        met += found.len();
+    }
+    assert!(met > 20_000, "the test must test something: {met}");
+}
+
+#[test]
+fn blocks_know_how_many_triangles_they_have() {
+    for count in 1..=4 {
+        let block = Triangles::new((0..count).map(|id| (7 + id, [[id as f32; 3]; 3])));
+        assert_eq!(block.count(), count as usize);
+        assert_eq!(block.ids[..count as usize], [7, 8, 9, 10][..count as usize]);
     }
 }
