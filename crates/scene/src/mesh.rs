@@ -52,6 +52,9 @@ pub struct MeshData {
 }
 
 impl MeshData {
+    /// The most triangles of one mesh.
+    pub const MOST_TRIANGLES: usize = 1 << 28;
+
     /// How many edges do not join two triangles that run along them in opposite directions; with none the mesh has an inside.
     /// `None` if no triangle has an area.
     ///

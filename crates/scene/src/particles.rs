@@ -14,6 +14,11 @@ pub struct Particles {
     pub colors: Option<Data<Rgb>>,
 }
 
+impl Particles {
+    /// The most in one list.
+    pub const MOST: usize = 1 << 28;
+}
+
 /// The kinds of particles. All lists of one set have the same length.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ParticleKind {

@@ -65,7 +65,8 @@ fn snippet<'a>(
     Snippet::source(cut).line_start(line_number).path(diagnostic.file.as_str()).annotation(kind.span(span).label(label))
 }
 
-/// The line, or the part of it around the place with `…` for what is missing; and the place in that part.
+/// The line, or the part of it around the place with `…` for what is missing, and blanks before it so that columns stay
+/// what they are; and the place in that part.
 fn cut_line(line: &str, span: Range<usize>) -> (String, Range<usize>) {
     let line = line.trim_end_matches('\r');
     let span = span.start.min(line.len())..span.end.min(line.len());
@@ -74,7 +75,8 @@ fn cut_line(line: &str, span: Range<usize>) -> (String, Range<usize>) {
     }
     let from = boundary(line, span.start.saturating_sub(KEPT));
     let to = boundary(line, (span.end.min(span.start + LONG_LINE) + KEPT).min(line.len()));
-    let before = if from > 0 { "…" } else { "" };
+    let missing = line[..from].chars().count();
+    let before = if missing > 0 { " ".repeat(missing - 1) + "…" } else { String::new() };
     let after = if to < line.len() { "…" } else { "" };
     let shift = |at: usize| at.min(to) - from + before.len();
     let part = format!("{before}{}{after}", &line[from..to]);

@@ -89,7 +89,7 @@ pub(crate) const FAR_SLACK: f32 = 1.0 + 16.0 * (f32::EPSILON / 2.0);
 
 /// Far less than anything has extent, and yet enough for a ray along one axis, whose inverse for the others is
 /// [`MOST_INVERSE`], to stay as long as it may between planes that it lies in.
-const LEAST_DOUBT: f32 = 1e-20;
+const LEAST_DOUBT: f32 = 1e-15;
 
 /// Stands for 1/0 and keeps 0 · ∞ out.
 const MOST_INVERSE: f32 = 1e38;

@@ -22,6 +22,9 @@ pub(super) fn check(c: &mut Checker<'_>, mesh: &Mesh) {
 
 fn data(c: &mut Checker<'_>, mesh: &MeshData) {
     let count = mesh.positions.len();
+    if mesh.triangles.len() > MeshData::MOST_TRIANGLES {
+        c.field("triangles", |c| c.problem(format!("a mesh has at most {} triangles", MeshData::MOST_TRIANGLES)));
+    }
     c.point("origin", mesh.origin);
     each(c, "vertices", &mesh.positions, |point| wrong_with_point("vertices", wide(*point)));
     each(c, "triangles", &mesh.triangles, |triangle| {

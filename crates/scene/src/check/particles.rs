@@ -8,6 +8,9 @@ use durer_math::DVec3;
 
 pub(super) fn check(c: &mut Checker<'_>, particles: &Particles) {
     let count = particles.kind.len();
+    if count > Particles::MOST {
+        c.problem(format!("at most {} particles may be in one list", Particles::MOST));
+    }
     let of = match &particles.kind {
         ParticleKind::Spheres { centers, radii } => {
             each(c, "centers", &centers.values, |point| wrong_with_point("centers", *point));

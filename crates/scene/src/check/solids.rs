@@ -4,6 +4,7 @@ use super::objects::all;
 use super::values::{Around, Checker};
 use super::{Step, objects};
 use crate::{MeshData, Object, ObjectKind, Shape, Solid};
+use std::sync::Arc;
 
 pub(super) fn check(c: &mut Checker<'_>, solid: &Solid, inside: Around, depth: usize) {
     c.field("objects", |c| {
@@ -49,13 +50,14 @@ fn open(c: &mut Checker<'_>, word: &str, shape: &Shape) -> bool {
     }
 }
 
-fn whole(c: &mut Checker<'_>, mesh: &MeshData) -> bool {
+fn whole(c: &mut Checker<'_>, mesh: &Arc<MeshData>) -> bool {
     // What else is wrong with it has been said.
     if mesh.triangles.iter().flatten().any(|&vertex| vertex as usize >= mesh.positions.len()) {
         return false;
     }
     let help = "close it where it was made: fill its holes, join its seams, and turn its triangles the same way around";
-    match mesh.open_edges() {
+    let open = *c.open_edges.entry(Arc::as_ptr(mesh) as usize).or_insert_with(|| mesh.open_edges());
+    match open {
         Some(0) => true,
         Some(open) => {
             let edges = if open == 1 { "1 edge does" } else { &format!("{open} edges do") };

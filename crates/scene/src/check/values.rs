@@ -7,7 +7,7 @@ use super::bounds::{
 use super::{Place, Problem, Step};
 use crate::{Scene, Transform, TransformStep};
 use durer_math::{DAffine3, DVec3, Rgb};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What an object stands in.
 #[derive(Clone, Copy)]
@@ -39,11 +39,13 @@ pub(super) struct Checker<'s> {
     place: Vec<Step>,
     /// Addresses of the meshes that have been checked: several objects may share one.
     pub(super) meshes: BTreeSet<usize>,
+    /// How many open edges those among them have that are parts of solids.
+    pub(super) open_edges: BTreeMap<usize, Option<usize>>,
 }
 
 impl<'s> Checker<'s> {
     pub(super) fn new(scene: &'s Scene) -> Self {
-        Checker { scene, problems: Vec::new(), place: Vec::new(), meshes: BTreeSet::new() }
+        Checker { scene, problems: Vec::new(), place: Vec::new(), meshes: BTreeSet::new(), open_edges: BTreeMap::new() }
     }
 
     /// Checks something one step further down.
