@@ -152,6 +152,11 @@ pub(crate) fn read(file: &str, bytes: &[u8], assets: &dyn Assets, limits: &Limit
     if bytes.is_empty() {
         return Err(ModelError::new("this file is empty"));
     }
+    // Some editors put a byte order mark before a text.
+    let bytes = match bytes.strip_prefix(b"\xef\xbb\xbf") {
+        Some(text) if text.starts_with(b"ply") || text.starts_with(b"solid") => text,
+        _ => bytes,
+    };
     match Format::of_name(file).or_else(|| Format::of_content(bytes)) {
         Some(Format::Obj) => obj::read(file, bytes, assets, limits),
         Some(Format::Ply) => ply::read(file, bytes, limits),

@@ -61,6 +61,23 @@ fn what_is_missing_beside_it_is_warned_of() {
 }
 
 #[test]
+fn a_byte_order_mark_before_a_text_does_not_matter() {
+    let folder = tempfile::tempdir().unwrap();
+    let corners = "0 0 0\n1 0 0\n0 1 0\n";
+    let ply = format!(
+        "\u{feff}ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+         element face 1\nproperty list uchar int vertex_indices\nend_header\n{corners}3 0 1 2\n"
+    );
+    let vertices = corners.lines().map(|corner| format!("vertex {corner}\n")).collect::<String>();
+    let stl = format!("\u{feff}solid a\nfacet normal 0 0 1\nouter loop\n{vertices}endloop\nendfacet\nendsolid a\n");
+    write(folder.path(), &[("a.ply", ply.as_bytes()), ("a.stl", stl.as_bytes())]);
+    for name in ["a.ply", "a.stl"] {
+        let loaded = load(&folder.path().join(name)).unwrap();
+        assert!(loaded.warnings.list.is_empty(), "{}", loaded.warnings);
+    }
+}
+
+#[test]
 fn files_outside_are_not_read() {
     let outer = tempfile::tempdir().unwrap();
     write(outer.path(), &[("in/a.obj", TRIANGLE.replace("parts/", "../").as_bytes()), ("a.mtl", LIBRARY.as_bytes())]);

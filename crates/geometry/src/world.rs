@@ -2,7 +2,7 @@
 
 use crate::bvh::Bvh;
 use crate::bvh::build::{BuildFor, Item, Leaves, Plan, build};
-use crate::bvh::traverse::Watch;
+use crate::bvh::traverse::{Most, Watch};
 use crate::packet::{LANES, Packet, PacketHits};
 use crate::simd::boxes::{Box32, BoxPacket, BoxRay};
 use crate::simd::planes::Planes;
@@ -214,7 +214,7 @@ impl World {
     /// False if the rays are not alike enough to go through the tree together to the end.
     #[inline(always)]
     fn offer_together<S: Simd>(&self, simd: S, best: &mut [Best; LANES], packet: &Packet, mask: u32) -> bool {
-        let Some(boxes) = BoxPacket::new(packet) else { return false };
+        let Some(boxes) = BoxPacket::new(packet, Most::OF_SLOW_TESTS) else { return false };
         self.bvh.nearest(
             simd,
             &boxes,
@@ -285,7 +285,7 @@ impl World {
             test(id);
             return true;
         }
-        let Some(boxes) = BoxPacket::new(packet) else { return false };
+        let Some(boxes) = BoxPacket::new(packet, Most::OF_SLOW_TESTS) else { return false };
         let reach = t_max.iter().fold(0.0, |most, &t| if t > most { t } else { most });
         let found = self.bvh.any(
             simd,

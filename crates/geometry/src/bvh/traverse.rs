@@ -66,7 +66,7 @@ impl Bvh {
         if self.nodes.is_empty() {
             return true;
         }
-        let mut patience = Patience { left: B::MOST_MET.map(|most| most.nearest) };
+        let mut patience = Patience { left: rays.most().map(|most| most.nearest) };
         let mut t_max = round_up(t_max);
         let mut stack = Stack::new();
         let mut at = Child::node(0);
@@ -126,7 +126,7 @@ impl Bvh {
         if self.nodes.is_empty() {
             return Some(false);
         }
-        let mut patience = Patience { left: B::MOST_MET.map(|most| most.any) };
+        let mut patience = Patience { left: rays.most().map(|most| most.any) };
         let t_max = round_up(t_max);
         let mut stack = ArrayVec::<Child, { 7 * MAX_DEPTH + 8 }>::new();
         let mut index = 0;
@@ -168,14 +168,17 @@ impl Bvh {
 /// What the traversal asks of a ray, or of a packet of rays.
 pub(crate) trait BoxTest<S: Simd>: Copy {
     /// After so many boxes that are met a search is given up; `None` for never.
-    const MOST_MET: Option<Most>;
+    fn most(&self) -> Option<Most>;
 
     /// Which of the boxes may be met between 0 and `t_max`, one bit each, and where each may be entered.
     fn hits(&self, simd: S, boxes: &Boxes, t_max: f32) -> (u64, [f32; 8]);
 }
 
 impl<S: Simd> BoxTest<S> for BoxRay {
-    const MOST_MET: Option<Most> = None;
+    #[inline(always)]
+    fn most(&self) -> Option<Most> {
+        None
+    }
 
     #[inline(always)]
     fn hits(&self, simd: S, boxes: &Boxes, t_max: f32) -> (u64, [f32; 8]) {
@@ -184,9 +187,10 @@ impl<S: Simd> BoxTest<S> for BoxRay {
 }
 
 impl<S: Simd> BoxTest<S> for BoxPacket {
-    /// Rays that belong together meet some twenty to sixty boxes in scenes of a million triangles. Those that do not would
-    /// meet all that lies between them; and where anything will do and nothing is in order, they gain least.
-    const MOST_MET: Option<Most> = Some(Most { nearest: 400, any: 40 });
+    #[inline(always)]
+    fn most(&self) -> Option<Most> {
+        Some(self.most)
+    }
 
     #[inline(always)]
     fn hits(&self, simd: S, boxes: &Boxes, t_max: f32) -> (u64, [f32; 8]) {
@@ -194,11 +198,21 @@ impl<S: Simd> BoxTest<S> for BoxPacket {
     }
 }
 
-/// How many boxes may be met in a search for the nearest hit, and in one for any.
+/// How many boxes a packet may meet in a search for the nearest hit, and in one for any.
+///
+/// Rays that belong together meet some twenty to sixty boxes among a million triangles. Those that do not would meet all
+/// that lies between them; and where anything will do and nothing is in order, they gain least.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Most {
     nearest: u32,
     any: u32,
+}
+
+impl Most {
+    /// Where a test takes about as long as that of a box.
+    pub(crate) const OF_QUICK_TESTS: Most = Most { nearest: 400, any: 40 };
+    /// Where what is tested may have a tree of its own.
+    pub(crate) const OF_SLOW_TESTS: Most = Most { nearest: 40, any: 20 };
 }
 
 /// Counts the boxes that are met in a search, if there is a limit.

@@ -3,7 +3,7 @@
 use super::Shape;
 use super::triangle::Triangle;
 use crate::bvh::build::{BuildFor, Item, Leaves, Plan, build};
-use crate::bvh::traverse::{Watch, Work};
+use crate::bvh::traverse::{Most, Watch, Work};
 use crate::bvh::{Bvh, Child, MAX_ITEMS};
 use crate::packet::{LANES, Packet, PacketHits};
 use crate::simd::boxes::{Box32, BoxPacket, BoxRay};
@@ -211,7 +211,7 @@ enum Together<S: Simd> {
 impl Mesh {
     #[inline(always)]
     fn together<S: Simd>(simd: S, packet: &Packet) -> Together<S> {
-        match (BoxPacket::new(packet), TrianglePacket::new(simd, packet)) {
+        match (BoxPacket::new(packet, Most::OF_QUICK_TESTS), TrianglePacket::new(simd, packet)) {
             (Some(boxes), Some(triangles)) => Together::Yes(boxes, triangles),
             _ => Together::No,
         }

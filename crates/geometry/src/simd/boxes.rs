@@ -1,6 +1,7 @@
 //! Axis-aligned boxes in single precision: one ray against eight of them, conservatively (never a miss that is a hit), and
 //! what the builder of the tree does with them.
 
+use crate::bvh::traverse::Most;
 use crate::packet::{LANES, Packet};
 use crate::{Bounds, Ray};
 use fearless_simd::{Simd, f32x8, prelude::*};
@@ -162,14 +163,21 @@ pub(crate) struct BoxPacket {
     origin_for_far: [f32; 3],
     /// The least and the greatest.
     inverse: [[f32; 2]; 3],
+    /// When to give up.
+    pub(crate) most: Most,
 }
 
 impl BoxPacket {
     /// `None` if the rays do not all go the same way along each axis: their ranges would say nothing.
     #[inline(always)]
-    pub(crate) fn new(packet: &Packet) -> Option<BoxPacket> {
-        let mut out =
-            BoxPacket { near: [0; 3], origin_for_near: [0.0; 3], origin_for_far: [0.0; 3], inverse: [[0.0; 2]; 3] };
+    pub(crate) fn new(packet: &Packet, most: Most) -> Option<BoxPacket> {
+        let mut out = BoxPacket {
+            near: [0; 3],
+            origin_for_near: [0.0; 3],
+            origin_for_far: [0.0; 3],
+            inverse: [[0.0; 2]; 3],
+            most,
+        };
         for axis in 0..3 {
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
             let (mut least, mut greatest) = (f32::INFINITY, f32::NEG_INFINITY);
@@ -251,7 +259,7 @@ mod tests {
                 boxes.set(1, &Box32::new([x - extent, y, -2.0], [x, y + extent, 3.0]));
                 let direction = DVec3::new([0.0, -0.0][random.between(0.0, 2.0) as usize], 0.0, 1.0);
                 let ray = Ray { origin: DVec3::new(f64::from(x), f64::from(y), 0.0), direction };
-                let packet = BoxPacket::new(&Packet::new(&[ray; 3])).expect("all the same");
+                let packet = BoxPacket::new(&Packet::new(&[ray; 3]), Most::OF_QUICK_TESTS).expect("all the same");
                 let (alone, together) = dispatch!(level, simd => {
                     (BoxRay::new(&ray).hits(simd, &boxes, 1e9).0, packet.hits(simd, &boxes, 1e9).0)
                 });
