@@ -211,10 +211,16 @@ impl World {
         best.map(|best| best.hit)
     }
 
+    /// When packets give up: with as many things as pixels, each ray hits its own.
+    fn most_met(&self) -> Most {
+        const VERY_MANY: usize = 300_000;
+        if self.bounded_ids.len() > VERY_MANY { Most::AMONG_VERY_MANY } else { Most::USUAL }
+    }
+
     /// False if the rays are not alike enough to go through the tree together to the end.
     #[inline(always)]
     fn offer_together<S: Simd>(&self, simd: S, best: &mut [Best; LANES], packet: &Packet, mask: u32) -> bool {
-        let Some(boxes) = BoxPacket::new(packet, Most::OF_SLOW_TESTS) else { return false };
+        let Some(boxes) = BoxPacket::new(packet, self.most_met()) else { return false };
         self.bvh.nearest(
             simd,
             &boxes,
@@ -285,7 +291,7 @@ impl World {
             test(id);
             return true;
         }
-        let Some(boxes) = BoxPacket::new(packet, Most::OF_SLOW_TESTS) else { return false };
+        let Some(boxes) = BoxPacket::new(packet, self.most_met()) else { return false };
         let reach = t_max.iter().fold(0.0, |most, &t| if t > most { t } else { most });
         let found = self.bvh.any(
             simd,

@@ -209,10 +209,10 @@ pub(crate) struct Most {
 }
 
 impl Most {
-    /// Where a test takes about as long as that of a box.
-    pub(crate) const OF_QUICK_TESTS: Most = Most { nearest: 400, any: 40 };
-    /// Where what is tested may have a tree of its own.
-    pub(crate) const OF_SLOW_TESTS: Most = Most { nearest: 40, any: 20 };
+    /// Where rays of neighboring pixels mostly hit the same things.
+    pub(crate) const USUAL: Most = Most { nearest: 400, any: 40 };
+    /// Where each of them may well hit another thing, with a tree of its own.
+    pub(crate) const AMONG_VERY_MANY: Most = Most { nearest: 14, any: 10 };
 }
 
 /// Counts the boxes that are met in a search, if there is a limit.

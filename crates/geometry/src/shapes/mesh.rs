@@ -211,7 +211,7 @@ enum Together<S: Simd> {
 impl Mesh {
     #[inline(always)]
     fn together<S: Simd>(simd: S, packet: &Packet) -> Together<S> {
-        match (BoxPacket::new(packet, Most::OF_QUICK_TESTS), TrianglePacket::new(simd, packet)) {
+        match (BoxPacket::new(packet, Most::USUAL), TrianglePacket::new(simd, packet)) {
             (Some(boxes), Some(triangles)) => Together::Yes(boxes, triangles),
             _ => Together::No,
         }

@@ -259,7 +259,7 @@ mod tests {
                 boxes.set(1, &Box32::new([x - extent, y, -2.0], [x, y + extent, 3.0]));
                 let direction = DVec3::new([0.0, -0.0][random.between(0.0, 2.0) as usize], 0.0, 1.0);
                 let ray = Ray { origin: DVec3::new(f64::from(x), f64::from(y), 0.0), direction };
-                let packet = BoxPacket::new(&Packet::new(&[ray; 3]), Most::OF_QUICK_TESTS).expect("all the same");
+                let packet = BoxPacket::new(&Packet::new(&[ray; 3]), Most::USUAL).expect("all the same");
                 let (alone, together) = dispatch!(level, simd => {
                     (BoxRay::new(&ray).hits(simd, &boxes, 1e9).0, packet.hits(simd, &boxes, 1e9).0)
                 });
