@@ -95,3 +95,19 @@ fn boundary(text: &str, mut at: usize) -> usize {
     }
     at
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_in_long_lines_keep_their_columns() {
+        for (line, start) in
+            [("é".repeat(150) + "x" + &"b".repeat(400), 300), ("a".repeat(900) + "x", 900), ("x".to_owned(), 0)]
+        {
+            let (cut, span) = cut_line(&line, start..start + 1);
+            assert_eq!(&cut[span.clone()], "x");
+            assert_eq!(cut[..span.start].chars().count(), line[..start].chars().count());
+        }
+    }
+}

@@ -30,6 +30,18 @@ fn gray(material: &Material) -> f32 {
 }
 
 #[test]
+fn what_is_no_usable_number_is_left_out_and_said() {
+    let sound = material("Kd 0.5 0.25 0");
+    for nonsense in
+        ["Kd 1 nan 0", "Kd 1 -1 0", "Kd 1 2", "Ke -5 0 0", "d -1", "d 7", "Tr 2", "Ni -3", "Ns 1e99", "illum 11"]
+    {
+        let (found, _, warnings) = read(&format!("newmtl m\nKd 0.5 0.25 0\n{nonsense}\n"), &[]);
+        assert_eq!(found, sound, "{nonsense}");
+        assert!(warnings.len() == 1 && warnings[0].contains("is no usable number"), "{nonsense}: {warnings:?}");
+    }
+}
+
+#[test]
 fn a_matte_surface_gives_back_its_color() {
     let plain = material("Kd 0.25 0.5 1");
     assert_eq!(plain.color, Paint::Color(Rgb::new(0.25, 0.5, 1.0)));
