@@ -5,7 +5,7 @@ use clap::builder::RangedI64ValueParser;
 use clap::{Args, ValueEnum};
 use durer::CheckedScene;
 use durer::imaging::Transfer;
-use durer::scene::{Antialias, Picture, Problem, Scene, Step, Trees};
+use durer::scene::{Antialias, Picture, PixelFilter, Problem, Scene, Step, Trees};
 
 /// Settings that win over those of the scene file.
 #[derive(Args, Debug, Default)]
@@ -18,9 +18,15 @@ pub(crate) struct Overrides {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100), allow_negative_numbers = true)]
     max_depth: Option<u32>,
 
-    /// Rays in a pixel: `none`, `grid:N` (N × N) or `recursive[:THRESHOLD[,DEPTH]]`
+    /// Rays in a pixel: `adaptive[:THRESHOLD[,DEPTH]]`, `none`, `grid:N` (N × N), `recursive[:THRESHOLD[,DEPTH]]`, or as
+    /// POV-Ray does, `pov1[:THRESHOLD[,DEPTH]]` and `pov2[:THRESHOLD[,DEPTH]]`
     #[arg(long, value_name = "HOW", value_parser = antialias, allow_hyphen_values = true)]
     antialias: Option<Antialias>,
+
+    /// How samples are weighed around the middle of a pixel: `box`, `tent`, `gaussian`, `mitchell` or `blackman_harris`,
+    /// with `:RADIUS` in pixels
+    #[arg(long, value_name = "HOW", value_parser = filter, allow_hyphen_values = true)]
+    filter: Option<PixelFilter>,
 
     /// What the trees in which rays search are built for; the picture is the same
     #[arg(long, value_name = "PURPOSE")]
@@ -78,6 +84,7 @@ impl Overrides {
         (picture.width, picture.height) = self.size.of(picture);
         render.max_depth = self.max_depth.unwrap_or(render.max_depth);
         render.antialias = self.antialias.unwrap_or(render.antialias);
+        render.filter = self.filter.unwrap_or(render.filter);
         render.trees = match self.trees {
             Some(TreesArg::Preview) => Trees::Preview,
             Some(TreesArg::Picture) => Trees::Picture,
@@ -119,6 +126,7 @@ impl Overrides {
                 (_, None) => "--width",
             },
             ("render", "max_depth") => "--max-depth",
+            ("render", "filter") => "--filter",
             ("render", _) => "--antialias",
             _ => "the scene with these options",
         }
@@ -152,31 +160,57 @@ fn length() -> RangedI64ValueParser<u32> {
     RangedI64ValueParser::new().range(1..=65_535)
 }
 
+const ANTIALIAS: &str = "`adaptive[:THRESHOLD[,DEPTH]]`, `none`, `grid:N`, `recursive[:THRESHOLD[,DEPTH]]`, \
+    `pov1[:THRESHOLD[,DEPTH]]` or `pov2[:THRESHOLD[,DEPTH]]`";
+
 fn antialias(text: &str) -> Result<Antialias, String> {
-    let wrong = || "expected `none`, `grid:N` or `recursive[:THRESHOLD[,DEPTH]]`".to_owned();
+    let wrong = || format!("expected {ANTIALIAS}");
     let (kind, numbers) = match text.split_once(':') {
         Some((kind, numbers)) => (kind, Some(numbers)),
         None => (text, None),
     };
+    // What scene files take where these are not given.
+    let two = |threshold, depth| two_numbers(numbers, (threshold, depth)).ok_or_else(wrong);
     match (kind, numbers) {
         ("none", None) => Ok(Antialias::None),
         ("grid", Some(n)) => Ok(Antialias::Grid { n: n.parse().map_err(|_| wrong())? }),
-        ("recursive", numbers) => recursive(numbers).ok_or_else(wrong),
+        ("adaptive", _) => two(0.03, 4).map(|(threshold, max_depth)| Antialias::Adaptive { threshold, max_depth }),
+        ("recursive", _) => two(0.3, 5).map(|(threshold, max_depth)| Antialias::Recursive { threshold, max_depth }),
+        ("pov1", _) => two(0.3, 3).map(|(threshold, depth)| Antialias::Pov1 { threshold, depth }),
+        ("pov2", _) => two(0.3, 3).map(|(threshold, depth)| Antialias::Pov2 { threshold, depth }),
         _ => Err(wrong()),
     }
 }
 
-fn recursive(numbers: Option<&str>) -> Option<Antialias> {
-    // What scene files take where these are not given.
-    let (mut threshold, mut max_depth) = (0.3, 5);
+fn two_numbers(numbers: Option<&str>, (threshold, depth): (f32, u32)) -> Option<(f32, u32)> {
     let mut numbers = numbers.into_iter().flat_map(|numbers| numbers.split(','));
-    if let Some(text) = numbers.next() {
-        threshold = text.parse().ok()?;
+    let threshold = numbers.next().map_or(Some(threshold), |text| text.parse().ok())?;
+    let depth = numbers.next().map_or(Some(depth), |text| text.parse().ok())?;
+    numbers.next().is_none().then_some((threshold, depth))
+}
+
+fn filter(text: &str) -> Result<PixelFilter, String> {
+    let wrong = || {
+        "expected `box`, `tent`, `gaussian`, `mitchell` or `blackman_harris`, and `:RADIUS` if it is to be \
+        another one than usual"
+            .to_owned()
+    };
+    let (kind, radius) = match text.split_once(':') {
+        Some((kind, radius)) => (kind, Some(radius.parse::<f64>().map_err(|_| wrong())?)),
+        None => (text, None),
+    };
+    match kind {
+        "box" if radius.is_none() => Ok(PixelFilter::Box),
+        "tent" => Ok(PixelFilter::Tent { radius: radius.unwrap_or(1.0) }),
+        // The bell keeps its form, whatever its radius.
+        "gaussian" => {
+            let radius = radius.unwrap_or(1.5);
+            Ok(PixelFilter::Gaussian { radius, sigma: radius / 3.0 })
+        }
+        "mitchell" => Ok(PixelFilter::Mitchell { radius: radius.unwrap_or(2.0) }),
+        "blackman_harris" | "blackman-harris" => Ok(PixelFilter::BlackmanHarris { radius: radius.unwrap_or(1.5) }),
+        _ => Err(wrong()),
     }
-    if let Some(text) = numbers.next() {
-        max_depth = text.parse().ok()?;
-    }
-    numbers.next().is_none().then_some(Antialias::Recursive { threshold, max_depth })
 }
 
 #[cfg(test)]
@@ -191,8 +225,31 @@ mod tests {
         assert_eq!(antialias("recursive"), recursive(0.3, 5));
         assert_eq!(antialias("recursive:0.1"), recursive(0.1, 5));
         assert_eq!(antialias("recursive:0.1,2"), recursive(0.1, 2));
+        assert_eq!(antialias("adaptive"), Ok(Antialias::ADAPTIVE));
+        assert_eq!(antialias("pov2:0.1,5"), Ok(Antialias::Pov2 { threshold: 0.1, depth: 5 }));
         for wrong in ["", "grid", "grid:x", "none:1", "recursive:", "recursive:1,2,3", "recursive:,2", "4"] {
             assert!(antialias(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    /// What is left out is what scene files take.
+    #[test]
+    fn settings_left_out_are_those_of_scene_files() {
+        let of = |settings: &str| {
+            let text = format!("render: {{{settings}}}");
+            let loaded = durer::load_str(&text, "test", &durer::NoAssets, &durer::Limits::default());
+            let render = loaded.expect("fine").scene.scene().render;
+            (render.antialias, render.filter)
+        };
+        for word in ["adaptive", "recursive", "pov1", "pov2"] {
+            assert_eq!(Ok(of(&format!("antialias: {word}")).0), antialias(word));
+        }
+        for word in ["box", "tent", "gaussian", "mitchell", "blackman_harris"] {
+            assert_eq!(Ok(of(&format!("filter: {word}")).1), filter(word));
+        }
+        assert_eq!(filter("tent:2"), Ok(PixelFilter::Tent { radius: 2.0 }));
+        for wrong in ["", "tent:", "box:1", "gauss", "tent:x"] {
+            assert!(filter(wrong).is_err(), "{wrong}");
         }
     }
 

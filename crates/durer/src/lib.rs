@@ -24,9 +24,10 @@ pub use durer_formats::{
 pub use durer_imaging as imaging;
 pub use durer_math as math;
 pub use durer_render::{
-    Bounds, CompiledScene, Contribution, Element, Film, GeometryMemory, HeatMap, HitExplanation, HoleExplanation,
-    LightExplanation, NotTraced, PixelExplanation, Progress, RayCounts, RayExplanation, RayKind, Region, RenderError,
-    RenderOptions, SampleExplanation, Source, compile, explain, heatmap, render, with_threads,
+    BadSample, Bounds, CompiledScene, Contribution, Element, Film, GeometryMemory, HeatMap, HitExplanation,
+    HoleExplanation, LightExplanation, NotTraced, PixelExplanation, Progress, RayCounts, RayExplanation, RayKind,
+    Region, RenderError, RenderOptions, SampleExplanation, Source, compile, explain, heatmap, render, render_on,
+    with_threads,
 };
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};

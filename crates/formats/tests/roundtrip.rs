@@ -260,13 +260,25 @@ fn settings() -> BoxedStrategy<Scene> {
         Just(Antialias::None),
         (1_u32..=64).prop_map(|n| Antialias::Grid { n }),
         (part(), 0_u32..=10).prop_map(|(threshold, max_depth)| Antialias::Recursive { threshold, max_depth }),
+        (part(), 0_u32..=7).prop_map(|(threshold, max_depth)| Antialias::Adaptive { threshold, max_depth }),
+        (part(), 1_u32..=9).prop_map(|(threshold, depth)| Antialias::Pov1 { threshold, depth }),
+        (part(), 1_u32..=9).prop_map(|(threshold, depth)| Antialias::Pov2 { threshold, depth }),
     ];
     let picture = (1_u32..9999, 1_u32..9999, prop::sample::select(vec![Transfer::Srgb, Transfer::Linear]))
         .prop_map(|(width, height, transfer)| Picture { width, height, transfer });
     let trees = prop::sample::select(vec![Trees::Preview, Trees::Picture, Trees::ManyRays]);
-    let render = (1_u32..=20, part(), antialias, trees).prop_map(|(max_depth, min_weight, antialias, trees)| {
-        RenderSettings { max_depth, min_weight, antialias, trees }
-    });
+    let radius = || 0.5..8.0;
+    let filter = prop_oneof![
+        Just(PixelFilter::Box),
+        radius().prop_map(|radius| PixelFilter::Tent { radius }),
+        (radius(), 0.1..8.0).prop_map(|(radius, sigma)| PixelFilter::Gaussian { radius, sigma }),
+        radius().prop_map(|radius| PixelFilter::Mitchell { radius }),
+        radius().prop_map(|radius| PixelFilter::BlackmanHarris { radius }),
+    ];
+    let render =
+        (1_u32..=20, part(), antialias, filter, trees).prop_map(|(max_depth, min_weight, antialias, filter, trees)| {
+            RenderSettings { max_depth, min_weight, antialias, filter, trees }
+        });
     let background = prop_oneof![
         color().prop_map(Background::Color),
         (color(), color()).prop_map(|(bottom, top)| Background::Gradient { bottom, top })

@@ -10,6 +10,7 @@ mod primitive;
 mod ray;
 mod shapes;
 mod simd;
+mod slender;
 mod vantage;
 mod world;
 
@@ -22,5 +23,6 @@ pub use ray::{Crossing, Ray};
 pub use shapes::mesh::{Mesh, MeshSource};
 pub use shapes::particles::Particles;
 pub use shapes::solid::{Operand, Operation};
+pub use slender::Slender;
 pub use vantage::Vantage;
 pub use world::{Hit, World};

@@ -5,6 +5,7 @@ use crate::shapes::{
     Shape, cone::Cone, cuboid::Cuboid, cylinder::Cylinder, disc::Disc, mesh::Mesh, particles::Particles, plane::Plane,
     rectangle::Rectangle, solid::Solid, sphere::Sphere, torus::Torus, triangle::Triangle,
 };
+use crate::slender::{Form, Slender};
 use crate::{Bounds, Crossing, Ray, Work};
 use durer_math::{DAffine3, DMat3, DVec2, DVec3, rotation_between};
 use std::sync::Arc;
@@ -216,6 +217,26 @@ impl Primitive {
         }
     }
 
+    /// Calls `visit` with the thing that this is: with each of particles (some of them more than once), with all of a mesh or
+    /// a solid as one, and with nothing if it is an infinite plane.
+    pub fn each_slender(&self, mut visit: impl FnMut(Slender)) {
+        let (map, origin) = (&self.world_from_shape, self.origin);
+        let form = match &self.kind {
+            Kind::Plane(_) => return,
+            Kind::Particles(particles) => return particles.each_slender(&mut |one| visit(one.mapped(map, origin))),
+            Kind::Sphere(_) => Form::Ball,
+            Kind::Cylinder(_) | Kind::Cone(_) => Form::Rod,
+            Kind::Cuboid(_)
+            | Kind::Disc(_)
+            | Kind::Rectangle(_)
+            | Kind::Triangle(_)
+            | Kind::Torus(_)
+            | Kind::Mesh(_)
+            | Kind::Solid(_) => Form::Any,
+        };
+        visit(Slender::of_box(&each_kind!(&self.kind, shape => shape.bounds()), form, map, origin));
+    }
+
     /// For an infinite plane, its normal (scaled as the map scales it) and a point on it.
     pub(crate) fn as_plane(&self) -> Option<[DVec3; 2]> {
         match self.kind {
@@ -247,6 +268,24 @@ impl Primitive {
     /// For particles, the number of the one that a part belongs to.
     pub fn particle_of(&self, part: u32) -> Option<u32> {
         if let Kind::Particles(particles) = &self.kind { Some(particles.particle_of(part)) } else { None }
+    }
+
+    /// Which piece of it a part belongs to: a mesh is one piece, of others each face or particle is one.
+    pub fn piece_of(&self, part: u32) -> u32 {
+        match &self.kind {
+            Kind::Mesh(_) => 0,
+            Kind::Particles(particles) => particles.particle_of(part),
+            Kind::Plane(_)
+            | Kind::Sphere(_)
+            | Kind::Cuboid(_)
+            | Kind::Cylinder(_)
+            | Kind::Cone(_)
+            | Kind::Disc(_)
+            | Kind::Rectangle(_)
+            | Kind::Triangle(_)
+            | Kind::Torus(_)
+            | Kind::Solid(_) => part,
+        }
     }
 
     /// The nearest crossing with 0 < t < `t_max`.

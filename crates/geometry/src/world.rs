@@ -408,6 +408,11 @@ impl World {
         self.primitives[hit.primitive as usize].particle_of(hit.crossing.part)
     }
 
+    /// Which piece of its primitive was hit: a face of a shape, one of particles, or all of a mesh.
+    pub fn piece_of(&self, hit: &Hit) -> u32 {
+        self.primitives[hit.primitive as usize].piece_of(hit.crossing.part)
+    }
+
     /// Texture coordinates at a point on the surface that was hit.
     pub fn uv(&self, point: DVec3, hit: &Hit) -> DVec2 {
         self.primitives[hit.primitive as usize].uv(point, hit.crossing.part)

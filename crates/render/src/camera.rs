@@ -65,6 +65,33 @@ impl Camera {
         Bounds::of_points([corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, -1.0), corner(1.0, 1.0)])
     }
 
+    /// Where the ends of a line are seen: of the part of it that lies before the eye, if there is one.
+    pub(crate) fn project_line(&self, [a, b]: [DVec3; 2]) -> Option<[Projected; 2]> {
+        if self.parallel {
+            return Some([self.project(a, 1.0), self.project(b, 1.0)]);
+        }
+        let [depth_a, depth_b] = [a, b].map(|point| (point - self.position).dot(self.forward));
+        // Near to the eye things are large, and a line has no end.
+        let nearest = 1e-3 * depth_a.max(depth_b);
+        if nearest <= 0.0 {
+            return None;
+        }
+        let cut = |point: DVec3, depth: f64, other: DVec3, other_depth: f64| match depth < nearest {
+            true => (point + (other - point) * ((nearest - depth) / (other_depth - depth)), nearest),
+            false => (point, depth),
+        };
+        let ends = [cut(a, depth_a, b, depth_b), cut(b, depth_b, a, depth_a)];
+        Some(ends.map(|(point, depth)| self.project(point, depth)))
+    }
+
+    fn project(&self, point: DVec3, depth: f64) -> Projected {
+        let from_eye = point - self.position;
+        let along = |axis: DVec3| from_eye.dot(axis) / (axis.length_squared() * depth);
+        let at = DVec2::new(along(self.right) + 1.0, 1.0 - along(self.up)) / self.scale;
+        let distance = if self.parallel { from_eye.dot(self.forward) } else { from_eye.length() };
+        Projected { at, scale: 1.0 / (self.up.length() * depth * self.scale.y), distance }
+    }
+
     /// The ray through a point of the picture, in pixels from its upper left corner.
     #[inline]
     pub(crate) fn ray(&self, at: DVec2) -> Ray {
@@ -76,6 +103,17 @@ impl Camera {
             Ray { origin: self.position, direction: (self.forward + across).normalize() }
         }
     }
+}
+
+/// A point as the picture shows it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Projected {
+    /// Where, in pixels from the upper left corner.
+    pub(crate) at: DVec2,
+    /// How many pixels long something of length 1 is there, across the view.
+    pub(crate) scale: f64,
+    /// How far away it is, along the ray.
+    pub(crate) distance: f64,
 }
 
 /// A view from the front, a little from the right and from above, that shows all of `bounds` and little else.
@@ -139,6 +177,30 @@ mod tests {
         assert_near(ray.direction, DVec3::NEG_Z);
         let Bounds { min, max } = camera.origins();
         assert!(min.x < -6.0 && max.x > 6.0 && min.y < -2.0 && max.y > 2.0 && max.y < 2.1);
+    }
+
+    #[test]
+    fn points_are_seen_where_their_rays_go() {
+        let perspective = scene::Camera { position: DVec3::new(1.0, 2.0, 5.0), ..scene::Camera::default() };
+        let parallel =
+            scene::Camera { projection: scene::Projection::Orthographic { height: 4.0 }, ..perspective.clone() };
+        for described in [perspective.clone(), parallel] {
+            let camera = Camera::compile(Some(&described), Bounds::EMPTY, 300, 200);
+            for (x, y, t) in [(150.0, 100.0, 3.0), (0.0, 0.0, 1.0), (299.5, 17.25, 8.0)] {
+                let at = DVec2::new(x, y);
+                let ray = camera.ray(at);
+                let [seen, beside] = camera
+                    .project_line([ray.at(t), ray.at(t) + camera.up.normalize() * 1e-3])
+                    .expect("it is before the eye");
+                assert!((seen.at - at).length() < 1e-9 && (seen.distance - t).abs() < 1e-9, "{seen:?}");
+                assert!(((beside.at - at).length() - seen.scale * 1e-3).abs() < 1e-9, "{seen:?}");
+            }
+        }
+        let camera = Camera::compile(Some(&perspective), Bounds::EMPTY, 300, 200);
+        let behind = |t: f64| camera.position - camera.forward * t;
+        assert!(camera.project_line([behind(1.0), behind(2.0)]).is_none());
+        let [before, cut] = camera.project_line([behind(-2.0), behind(2.0)]).expect("half of it");
+        assert!((before.distance - 2.0).abs() < 1e-12 && cut.distance > 0.0 && cut.distance < 0.01);
     }
 
     #[test]

@@ -191,6 +191,14 @@ impl CompiledScene {
         Some(&self.details[self.objects[primitive as usize].looks.details()? as usize])
     }
 
+    /// Which piece of a primitive was hit: within a piece, surfaces are smooth, or made to look so.
+    pub(crate) fn piece_of(&self, hit: &Hit) -> u32 {
+        match self.details(hit.primitive).filter(|details| details.is_solid()) {
+            Some(details) => details.origin(hit.crossing.part).0 as u32,
+            None => self.world.piece_of(hit),
+        }
+    }
+
     /// Number of shapes; every copy counts.
     pub fn shape_count(&self) -> usize {
         self.objects.len()

@@ -1,13 +1,17 @@
 //! Replays one pixel and writes down every ray of it.
 
-use crate::antialias::{Antialias, Sample, grid::Grid, recursive::Recursive};
+use crate::antialias::{Antialias, Rows, Splat};
 use crate::compile::CompiledScene;
-use crate::integrators::whitted::Whitted;
+use crate::eye::SceneEye;
+use crate::film::{Account, Region};
+use crate::holes::Known;
+use crate::integrators::{Integrator, whitted::Whitted};
 use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Source, SurfaceSeen};
-use crate::pixel::{SampleObserver, render_pixel};
+use crate::reconstruct::{Reconstruction, color_of, normalize};
+use crate::schedule::{WithAntialias, pixel_alone, with_antialias};
 use durer_geometry::{Hit, Ray, Surface};
 use durer_math::{DVec2, DVec3, Rgb};
-use durer_scene::MaterialId;
+use durer_scene::{MaterialId, PixelFilter};
 
 /// How a pixel got its colour: the sum of the colours of its kept samples, each times its weight, in this order.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +31,7 @@ pub struct PixelExplanation {
 pub struct SampleExplanation {
     /// Where it is, in pixels from the picture's upper left corner.
     pub at: DVec2,
-    /// Its weight in the pixel; `None` if anti-aliasing threw it away.
+    /// Its weight in the pixel; `None` if it does not count there: anti-aliasing threw it away, or it is not finite.
     pub weight: Option<f32>,
     /// The sum of all contributions, in the order of the tree: a ray's own, then those of its children.
     pub color: Rgb,
@@ -151,41 +155,53 @@ pub fn explain(scene: &CompiledScene, x: u32, y: u32) -> Option<PixelExplanation
     if x >= width || y >= height {
         return None;
     }
-    Some(match scene.settings.antialias {
-        durer_scene::Antialias::None => explain_with(scene, &Grid { n: 1 }, x, y),
-        durer_scene::Antialias::Grid { n } => explain_with(scene, &Grid { n }, x, y),
-        durer_scene::Antialias::Recursive { threshold, max_depth } => {
-            explain_with(scene, &Recursive { threshold, max_depth }, x, y)
-        }
-    })
+    let splats = with_antialias(scene, Samples { scene, x, y });
+    let explained = splats.iter().filter_map(|splat| {
+        let mut recorder = Recorder { scene, ray: None, open: Vec::new() };
+        let ray = scene.camera.ray(splat.at);
+        let color = Whitted.radiance(scene, &ray, Known::Nothing, &mut recorder);
+        let weight = (splat.weight != 0.0).then_some(splat.weight);
+        Some(SampleExplanation { at: splat.at, weight, color, ray: recorder.ray? })
+    });
+    Some(PixelExplanation { x, y, color: color_of(&splats), samples: explained.collect() })
 }
 
-fn explain_with<A: Antialias>(scene: &CompiledScene, antialias: &A, x: u32, y: u32) -> PixelExplanation {
-    let mut recorder = Recorder { scene, samples: Vec::new(), at: DVec2::ZERO, open: Vec::new() };
-    let pixel = render_pixel(scene, (&Whitted, antialias), (x, y), &[], &mut recorder);
-    PixelExplanation { x, y, color: pixel.color, samples: recorder.samples }
+/// Finds the samples of a pixel.
+struct Samples<'s> {
+    scene: &'s CompiledScene,
+    x: u32,
+    y: u32,
+}
+
+impl WithAntialias for Samples<'_> {
+    type Output = Vec<Splat>;
+
+    fn alone<A: Antialias>(self, antialias: &A) -> Vec<Splat> {
+        let mut splats = pixel_alone(self.scene, antialias, self.x, self.y);
+        if splats.iter().any(|splat| !splat.is_finite) {
+            normalize(&mut splats);
+        }
+        splats
+    }
+
+    fn shared<R: Rows>(self, rows: R, filter: PixelFilter) -> Vec<Splat> {
+        let Samples { scene, x, y } = self;
+        let pixel = Region { x, y, width: 1, height: 1 };
+        let mut reconstruction = Reconstruction::new(rows, filter, pixel, scene.picture_size());
+        reconstruction.sample(&SceneEye { scene }, pixel, &mut Account::default(), &|| false);
+        let mut splats = Vec::new();
+        reconstruction.splats(x, y, &mut splats);
+        splats
+    }
 }
 
 /// Writes down what it is told.
 struct Recorder<'s> {
     scene: &'s CompiledScene,
-    samples: Vec<SampleExplanation>,
-    at: DVec2,
+    /// The eye's ray, when it has ended.
+    ray: Option<RayExplanation>,
     /// The ray being traced, and those that led to it.
     open: Vec<RayExplanation>,
-}
-
-impl SampleObserver for Recorder<'_> {
-    fn sample_begins(&mut self, at: DVec2) {
-        self.at = at;
-    }
-
-    fn sample_kept(&mut self, weight: f32, sample: Sample) {
-        if let Some(explained) = self.samples.get_mut(sample.index as usize) {
-            explained.weight = Some(weight);
-            explained.color = sample.color;
-        }
-    }
 }
 
 impl Observer for Recorder<'_> {
@@ -245,10 +261,7 @@ impl Observer for Recorder<'_> {
         let Some(ray) = self.open.pop() else { return };
         match self.open.last_mut() {
             Some(parent) => parent.children.push(ray),
-            None => {
-                let color = ray.sum(Rgb::BLACK);
-                self.samples.push(SampleExplanation { at: self.at, weight: None, color, ray });
-            }
+            None => self.ray = Some(ray),
         }
     }
 }

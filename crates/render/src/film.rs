@@ -2,7 +2,10 @@
 
 use crate::observer::RayCounts;
 use durer_imaging::Image;
-use durer_math::Rgb;
+use durer_math::{DVec2, Rgb};
+
+/// Edge of a tile, in pixels: small enough to share out evenly, large enough that sharing costs nothing.
+pub(crate) const TILE: u32 = 32;
 
 /// A rectangle of pixels within a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,41 +25,129 @@ pub struct Region {
 pub struct Film {
     region: Region,
     pixels: Vec<Rgb>,
-    finished: u64,
-    rays: RayCounts,
-    bad_samples: u64,
-    first_bad_pixel: Option<(u32, u32)>,
+    /// How often each pixel was divided.
+    depths: Vec<u8>,
+    /// Which tiles are finished, row by row.
+    finished: Vec<bool>,
+    account: Account,
 }
 
-/// A finished rectangle of pixels, to be put on the film.
+/// How pixels came about.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Account {
+    pub(crate) rays: RayCounts,
+    pub(crate) bad_samples: u64,
+    pub(crate) first_bad_sample: Option<BadSample>,
+}
+
+/// A sample whose colour was not finite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BadSample {
+    /// Where it is, in pixels from the picture's upper left corner.
+    pub at: DVec2,
+}
+
+/// A finished rectangle of pixels, to be put on the film: one tile, or some side by side.
 #[derive(Clone, Debug)]
 pub(crate) struct Tile {
     pub(crate) region: Region,
     pub(crate) pixels: Vec<Rgb>,
-    pub(crate) rays: RayCounts,
-    pub(crate) bad_samples: u64,
-    pub(crate) first_bad_pixel: Option<(u32, u32)>,
+    pub(crate) depths: Vec<u8>,
+    pub(crate) account: Account,
 }
 
-impl Film {
-    /// A black film.
-    pub(crate) fn new(region: Region) -> Film {
-        let pixels = vec![Rgb::BLACK; region.width as usize * region.height as usize];
-        Film { region, pixels, finished: 0, rays: RayCounts::default(), bad_samples: 0, first_bad_pixel: None }
+impl Region {
+    /// The number of its pixels.
+    pub fn pixels(&self) -> u64 {
+        u64::from(self.width) * u64::from(self.height)
     }
 
-    pub(crate) fn put(&mut self, tile: &Tile) {
-        let width = tile.region.width as usize;
-        for (row, colors) in tile.pixels.chunks(width).enumerate() {
-            let y = tile.region.y as usize - self.region.y as usize + row;
-            let start = y * self.region.width as usize + (tile.region.x - self.region.x) as usize;
-            self.pixels[start..start + width].copy_from_slice(colors);
+    /// The columns and rows of its pixels, row by row.
+    pub(crate) fn pixel_places(self) -> impl Iterator<Item = (u32, u32)> {
+        (self.y..self.y + self.height).flat_map(move |y| (self.x..self.x + self.width).map(move |x| (x, y)))
+    }
+
+    /// With so many pixels more on all sides, as far as the picture goes.
+    pub(crate) fn grown(self, by: u32, (width, height): (u32, u32)) -> Region {
+        let (x, y) = (self.x.saturating_sub(by), self.y.saturating_sub(by));
+        let right = self.x.saturating_add(self.width).saturating_add(by).min(width);
+        let bottom = self.y.saturating_add(self.height).saturating_add(by).min(height);
+        Region { x, y, width: right - x, height: bottom - y }
+    }
+
+    /// Cuts it into tiles, row by row.
+    pub(crate) fn tiles(self) -> impl Iterator<Item = Region> {
+        self.bands().flat_map(|band| {
+            let starts = (0..band.width).step_by(TILE as usize);
+            starts.map(move |d| Region { x: band.x + d, width: TILE.min(band.width - d), ..band })
+        })
+    }
+
+    /// Cuts it into rows of tiles.
+    pub(crate) fn bands(self) -> impl Iterator<Item = Region> {
+        let starts = (0..self.height).step_by(TILE as usize);
+        starts.map(move |d| Region { y: self.y + d, height: TILE.min(self.height - d), ..self })
+    }
+}
+
+impl Account {
+    pub(crate) fn add(&mut self, other: &Account) {
+        self.rays.add(&other.rays);
+        self.bad_samples += other.bad_samples;
+        let first = [self.first_bad_sample, other.first_bad_sample].into_iter().flatten();
+        self.first_bad_sample = first.min_by(|a, b| (a.at.y, a.at.x).partial_cmp(&(b.at.y, b.at.x)).unwrap_or(Equal));
+    }
+
+    /// Notes a sample that is not finite.
+    pub(crate) fn bad_sample(&mut self, at: DVec2) {
+        self.add(&Account { bad_samples: 1, first_bad_sample: Some(BadSample { at }), ..Account::default() });
+    }
+}
+
+use std::cmp::Ordering::Equal;
+
+impl Film {
+    /// A black film, of which nothing is finished.
+    pub(crate) fn new(region: Region) -> Film {
+        let length = region.width as usize * region.height as usize;
+        Film {
+            region,
+            pixels: vec![Rgb::BLACK; length],
+            depths: vec![0; length],
+            finished: vec![false; region.tiles().count()],
+            account: Account::default(),
         }
-        self.finished += tile.pixels.len() as u64;
-        self.rays.add(&tile.rays);
-        self.bad_samples += tile.bad_samples;
-        let by_row = |&(x, y): &(u32, u32)| (y, x);
-        self.first_bad_pixel = self.first_bad_pixel.into_iter().chain(tile.first_bad_pixel).min_by_key(by_row);
+    }
+
+    /// Puts a finished rectangle on the film, which begins at the corner of a tile and ends at the edges of tiles.
+    pub(crate) fn put(&mut self, tile: &Tile) {
+        let Region { x, y, width, height } = tile.region;
+        let rows = tile.pixels.chunks(width as usize).zip(tile.depths.chunks(width as usize));
+        for (row, (colors, depths)) in (y - self.region.y..).zip(rows) {
+            let start = row as usize * self.region.width as usize + (x - self.region.x) as usize;
+            self.pixels[start..start + width as usize].copy_from_slice(colors);
+            self.depths[start..start + width as usize].copy_from_slice(depths);
+        }
+        let (column, row) = ((x - self.region.x) / TILE, (y - self.region.y) / TILE);
+        let across = self.region.width.div_ceil(TILE);
+        for row in row..row + height.div_ceil(TILE) {
+            for column in column..column + width.div_ceil(TILE) {
+                self.finished[(row * across + column) as usize] = true;
+            }
+        }
+        self.account.add(&tile.account);
+    }
+
+    /// The tiles that are not finished, row by row.
+    pub(crate) fn unfinished_tiles(&self) -> Vec<Region> {
+        self.region.tiles().zip(&self.finished).filter(|(_, finished)| !**finished).map(|(tile, _)| tile).collect()
+    }
+
+    /// The rows of tiles that are not finished.
+    pub(crate) fn unfinished_bands(&self) -> Vec<Region> {
+        let across = self.region.width.div_ceil(TILE) as usize;
+        let rows = self.region.bands().zip(self.finished.chunks(across));
+        rows.filter(|(_, finished)| !finished.iter().all(|&done| done)).map(|(band, _)| band).collect()
     }
 
     /// Part of the picture that this is.
@@ -66,31 +157,75 @@ impl Film {
 
     /// Pixels that are finished; the others are black.
     pub fn finished_pixels(&self) -> u64 {
-        self.finished
+        let tiles = self.region.tiles().zip(&self.finished);
+        tiles.filter(|(_, finished)| **finished).map(|(tile, _)| tile.pixels()).sum()
     }
 
     /// True if every pixel is finished.
     pub fn is_complete(&self) -> bool {
-        self.finished == self.pixels.len() as u64
+        self.finished.iter().all(|&finished| finished)
     }
 
     /// Rays traced, by kind.
     pub fn rays(&self) -> RayCounts {
-        self.rays
+        self.account.rays
     }
 
-    /// Samples whose colour was not finite. They count as black.
+    /// Samples whose colour was not finite. They are left out of their pixels.
     pub fn bad_samples(&self) -> u64 {
-        self.bad_samples
+        self.account.bad_samples
     }
 
-    /// The first pixel, row by row, with such a sample.
-    pub fn first_bad_pixel(&self) -> Option<(u32, u32)> {
-        self.first_bad_pixel
+    /// The first such sample, row by row.
+    pub fn first_bad_sample(&self) -> Option<BadSample> {
+        self.account.first_bad_sample
+    }
+
+    /// How often each pixel was divided to look closer, row by row; 0 where a pixel was not.
+    pub fn depths(&self) -> &[u8] {
+        &self.depths
     }
 
     /// The picture, in linear light.
     pub fn develop(self) -> Image {
         Image { width: self.region.width, height: self.region.height, pixels: self.pixels }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_cover_a_region_once() {
+        let region = Region { x: 5, y: 7, width: 70, height: 33 };
+        let mut seen = vec![0; 70 * 33];
+        for tile in region.tiles() {
+            for y in tile.y..tile.y + tile.height {
+                for x in tile.x..tile.x + tile.width {
+                    seen[((y - 7) * 70 + x - 5) as usize] += 1;
+                }
+            }
+        }
+        assert!(seen.iter().all(|&n| n == 1));
+    }
+
+    #[test]
+    fn what_is_put_on_the_film_is_finished() {
+        let mut film = Film::new(Region { x: 5, y: 7, width: 70, height: 40 });
+        let put = |film: &mut Film, region: Region| {
+            let length = region.pixels() as usize;
+            let (pixels, depths) = (vec![Rgb::WHITE; length], vec![1; length]);
+            film.put(&Tile { region, pixels, depths, account: Account::default() });
+        };
+        assert_eq!((film.unfinished_tiles().len(), film.unfinished_bands().len()), (6, 2));
+        put(&mut film, Region { x: 69, y: 39, width: 6, height: 8 });
+        assert_eq!((film.finished_pixels(), film.unfinished_tiles().len(), film.unfinished_bands().len()), (48, 5, 2));
+        put(&mut film, Region { x: 5, y: 7, width: 70, height: 32 });
+        assert_eq!(film.unfinished_bands(), [Region { x: 5, y: 39, width: 70, height: 8 }]);
+        assert_eq!(film.unfinished_tiles().len(), 2);
+        put(&mut film, Region { x: 5, y: 39, width: 70, height: 8 });
+        assert!(film.is_complete() && film.finished_pixels() == 2800);
+        assert!(film.develop().pixels.iter().all(|&pixel| pixel == Rgb::WHITE));
     }
 }

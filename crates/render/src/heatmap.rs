@@ -8,7 +8,7 @@
 use crate::antialias::{Antialias, Sample, Samples, grid::Grid};
 use crate::compile::CompiledScene;
 use crate::film::Region;
-use crate::schedule::{Progress, RenderError, RenderOptions, in_tiles, region_of};
+use crate::schedule::{Progress, RenderError, RenderOptions, in_tiles, region_of, with_pool};
 use durer_geometry::Work;
 use durer_math::{DVec2, Rgb};
 
@@ -31,15 +31,21 @@ pub fn heatmap(
 ) -> Result<HeatMap, RenderError> {
     let region = region_of(scene, options)?;
     let nothing = vec![0; region.width as usize * region.height as usize];
-    let map = HeatMap { region, nodes: nothing.clone(), primitives: nothing };
-    in_tiles(region, options, progress, map, |tile| (tile, count(scene, tile)), HeatMap::put)
+    let mut gathered = (HeatMap { region, nodes: nothing.clone(), primitives: nothing }, 0);
+    let put = |(map, finished): &mut (HeatMap, u64), (tile, counts): (Region, Vec<Work>)| {
+        map.put(tile, &counts);
+        *finished += tile.pixels();
+        progress.finished(*finished, region.pixels());
+    };
+    with_pool(options, || {
+        in_tiles(region.tiles().collect(), progress, &mut gathered, |tile| (tile, count(scene, tile)), put);
+    })?;
+    Ok(gathered.0)
 }
 
 /// One entry for each pixel, row by row.
 fn count(scene: &CompiledScene, tile: Region) -> Vec<Work> {
-    let rows = tile.y..tile.y + tile.height;
-    let pixels = rows.flat_map(|y| (tile.x..tile.x + tile.width).map(move |x| (x, y)));
-    pixels.map(|(x, y)| count_pixel(scene, DVec2::new(f64::from(x), f64::from(y)))).collect()
+    tile.pixel_places().map(|(x, y)| count_pixel(scene, DVec2::new(f64::from(x), f64::from(y)))).collect()
 }
 
 fn count_pixel(scene: &CompiledScene, corner: DVec2) -> Work {
@@ -62,10 +68,12 @@ impl Samples for Counter<'_> {
     }
 
     fn keep(&mut self, _weight: f32, _sample: Sample) {}
+
+    fn divided(&mut self, _depth: u32) {}
 }
 
 impl HeatMap {
-    fn put(&mut self, (tile, counts): (Region, Vec<Work>)) {
+    fn put(&mut self, tile: Region, counts: &[Work]) {
         let narrow = |count: u64| u32::try_from(count).unwrap_or(u32::MAX);
         for (row, works) in counts.chunks(tile.width as usize).enumerate() {
             let y = (tile.y - self.region.y) as usize + row;

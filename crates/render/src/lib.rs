@@ -7,6 +7,7 @@ mod background;
 mod camera;
 mod compile;
 mod explain;
+mod eye;
 mod film;
 mod first_hits;
 mod fog;
@@ -18,6 +19,7 @@ mod materials;
 mod media;
 mod observer;
 mod pixel;
+mod reconstruct;
 mod schedule;
 mod shading;
 mod textures;
@@ -29,7 +31,7 @@ pub use explain::{
     Contribution, Element, HitExplanation, HoleExplanation, LightExplanation, PixelExplanation, RayExplanation,
     SampleExplanation, explain,
 };
-pub use film::{Film, Region};
+pub use film::{BadSample, Film, Region};
 pub use heatmap::{HeatMap, heatmap};
 pub use observer::{NotTraced, RayCounts, RayKind, Source};
-pub use schedule::{Progress, RenderError, RenderOptions, render, with_threads};
+pub use schedule::{Progress, RenderError, RenderOptions, render, render_on, with_threads};

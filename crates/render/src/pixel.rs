@@ -1,64 +1,59 @@
-//! One pixel: rays where the anti-aliasing wants them, their colours summed.
+//! One pixel of its own: rays where the anti-aliasing wants them, their colours summed.
 
 use crate::antialias::{Antialias, Sample, Samples};
 use crate::compile::CompiledScene;
+use crate::film::Account;
 use crate::holes::Known;
 use crate::integrators::Integrator;
-use crate::observer::Observer;
 use durer_geometry::Hit;
 use durer_math::{DVec2, Rgb};
 
-/// A pixel's colour, and how many of its samples were not finite and count as black.
+/// What has become of a pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pixel {
     pub(crate) color: Rgb,
-    pub(crate) bad_samples: u64,
+    pub(crate) depth: u8,
+    /// True if a sample was not finite: such samples count as black here, and must be left out by other means.
+    pub(crate) has_bad_samples: bool,
 }
-
-/// Told about samples as well as about rays.
-pub(crate) trait SampleObserver: Observer {
-    fn sample_begins(&mut self, _at: DVec2) {}
-    fn sample_kept(&mut self, _weight: f32, _sample: Sample) {}
-}
-
-impl SampleObserver for crate::observer::RayCounts {}
 
 /// Renders the pixel at column `x`, row `y`. `first_hits` are those of the first rays that it takes, as many as are known.
 #[inline]
-pub(crate) fn render_pixel<I: Integrator, A: Antialias, O: SampleObserver>(
+pub(crate) fn render_pixel<I: Integrator, A: Antialias>(
     scene: &CompiledScene,
     (integrator, antialias): (&I, &A),
     (x, y): (u32, u32),
     first_hits: &[Option<Hit>],
-    observer: &mut O,
+    account: &mut Account,
 ) -> Pixel {
-    let pixel = Pixel { color: Rgb::BLACK, bad_samples: 0 };
-    let mut gathered = Gathered { scene, integrator, observer, first_hits, taken: 0, pixel };
+    let pixel = Pixel { color: Rgb::BLACK, depth: 0, has_bad_samples: false };
+    let mut gathered = Gathered { scene, integrator, account, first_hits, taken: 0, pixel };
     antialias.pixel(DVec2::new(f64::from(x), f64::from(y)), &mut gathered);
     gathered.pixel
 }
 
 /// The samples of one pixel.
-struct Gathered<'a, I, O> {
+struct Gathered<'a, I> {
     scene: &'a CompiledScene,
     integrator: &'a I,
-    observer: &'a mut O,
+    account: &'a mut Account,
     first_hits: &'a [Option<Hit>],
     taken: u32,
     pixel: Pixel,
 }
 
-impl<I: Integrator, O: SampleObserver> Samples for Gathered<'_, I, O> {
+impl<I: Integrator> Samples for Gathered<'_, I> {
     fn take(&mut self, at: DVec2) -> Sample {
-        self.observer.sample_begins(at);
         let known = match (self.first_hits.get(self.taken as usize), &self.scene.eye_vantage) {
             (Some(&hit), _) => Known::Hit(hit),
             (None, Some(vantage)) => Known::Vantage(vantage),
             (None, None) => Known::Nothing,
         };
-        let mut color = self.integrator.radiance(self.scene, &self.scene.camera.ray(at), known, self.observer);
+        let ray = self.scene.camera.ray(at);
+        let mut color = self.integrator.radiance(self.scene, &ray, known, &mut self.account.rays);
         if !color.is_finite() {
-            self.pixel.bad_samples += 1;
+            self.account.bad_sample(at);
+            self.pixel.has_bad_samples = true;
             color = Rgb::BLACK;
         }
         self.taken += 1;
@@ -67,6 +62,9 @@ impl<I: Integrator, O: SampleObserver> Samples for Gathered<'_, I, O> {
 
     fn keep(&mut self, weight: f32, sample: Sample) {
         self.pixel.color += sample.color * weight;
-        self.observer.sample_kept(weight, sample);
+    }
+
+    fn divided(&mut self, depth: u32) {
+        self.pixel.depth = self.pixel.depth.max(u8::try_from(depth).unwrap_or(u8::MAX));
     }
 }

@@ -1,17 +1,20 @@
-//! Tiles on all cores. Threads live here and change no result: a pixel depends on nothing but scene and place.
+//! Tiles and bands on all cores. Threads live here and change no result: a pixel depends on nothing but scene and place.
 
-use crate::antialias::{Antialias, grid::Grid, recursive::Recursive};
+use crate::antialias::adaptive::{Adaptive, small::SmallThings};
+use crate::antialias::alone::Alone;
+use crate::antialias::pov::{Pov1, Pov2};
+use crate::antialias::{Antialias, Rows, Splat, grid::Grid, recursive::Recursive};
 use crate::compile::CompiledScene;
-use crate::film::{Film, Region, Tile};
+use crate::eye::SceneEye;
+use crate::film::{Account, Film, Region, Tile};
 use crate::first_hits::FirstHits;
-use crate::integrators::{Integrator, whitted::Whitted};
-use crate::observer::RayCounts;
+use crate::integrators::whitted::Whitted;
 use crate::pixel::render_pixel;
+use crate::reconstruct::{Reconstruction, color_of, normalize};
+use durer_math::Rgb;
+use durer_scene::PixelFilter;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
-
-/// Edge of a tile, in pixels: small enough to share out evenly, large enough that sharing costs nothing.
-const TILE: u32 = 32;
 
 /// How to go about rendering; changes no pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,7 +30,10 @@ pub trait Progress: Sync {
     /// So many pixels of so many are finished.
     fn finished(&self, _pixels: u64, _of: u64) {}
 
-    /// True stops the rendering after the tiles that are being worked on.
+    /// The film with what is finished so far. Other threads that have finished something wait until this returns.
+    fn advanced(&self, _film: &Film) {}
+
+    /// True stops the rendering after what is being worked on.
     fn stop(&self) -> bool {
         false
     }
@@ -77,9 +83,156 @@ pub fn with_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + 
 
 /// Renders the scene, or a region of it. If `progress` stops it, the film holds what was finished.
 pub fn render(scene: &CompiledScene, options: &RenderOptions, progress: &dyn Progress) -> Result<Film, RenderError> {
-    let film = Film::new(region_of(scene, options)?);
-    let render = |tile| render_tile(scene, tile);
-    in_tiles(film.region(), options, progress, film, render, |film, tile| film.put(&tile))
+    render_on(scene, Film::new(region_of(scene, options)?), options, progress)
+}
+
+/// Goes on with a film of the same scene until all of it is finished, or `progress` stops it. What is on it already is not
+/// touched, and in the end it holds what one call of [`render`] makes.
+///
+/// # Errors
+///
+/// The film's region does not lie in the picture, or the system refused to start the threads. The region in `options` does
+/// not matter.
+pub fn render_on(
+    scene: &CompiledScene,
+    film: Film,
+    options: &RenderOptions,
+    progress: &dyn Progress,
+) -> Result<Film, RenderError> {
+    let region = Some(film.region());
+    region_of(scene, &RenderOptions { region, ..*options })?;
+    let mut film = film;
+    with_pool(options, || with_antialias(scene, RenderAll { scene, film: &mut film, progress }))?;
+    Ok(film)
+}
+
+/// Runs `work` in the pool that the options ask for.
+pub(crate) fn with_pool<T: Send>(options: &RenderOptions, work: impl FnOnce() -> T + Send) -> Result<T, RenderError> {
+    match options.threads {
+        None if rayon::current_thread_index().is_some() => Ok(work()),
+        threads => with_threads(threads, work),
+    }
+}
+
+/// What can be done with any kind of anti-aliasing.
+pub(crate) trait WithAntialias {
+    type Output;
+    /// With one of which each pixel stands alone, and no filter that reaches beyond it.
+    fn alone<A: Antialias>(self, antialias: &A) -> Self::Output;
+    /// With one of which pixels share samples.
+    fn shared<R: Rows>(self, rows: R, filter: PixelFilter) -> Self::Output;
+}
+
+/// Chooses the anti-aliasing once, outside of the loops.
+pub(crate) fn with_antialias<W: WithAntialias>(scene: &CompiledScene, work: W) -> W::Output {
+    fn choose<W: WithAntialias, A: Antialias>(work: W, filter: PixelFilter, antialias: A) -> W::Output {
+        match filter {
+            PixelFilter::Box => work.alone(&antialias),
+            PixelFilter::Tent { .. }
+            | PixelFilter::Gaussian { .. }
+            | PixelFilter::Mitchell { .. }
+            | PixelFilter::BlackmanHarris { .. } => work.shared(Alone::new(antialias), filter),
+        }
+    }
+    let (filter, picture) = (scene.settings.filter, scene.picture_size());
+    match scene.settings.antialias {
+        durer_scene::Antialias::None => choose(work, filter, Grid { n: 1 }),
+        durer_scene::Antialias::Grid { n } => choose(work, filter, Grid { n }),
+        durer_scene::Antialias::Recursive { threshold, max_depth } => {
+            choose(work, filter, Recursive { threshold, max_depth })
+        }
+        durer_scene::Antialias::Adaptive { threshold, max_depth } => {
+            let small = SmallThings::of(scene);
+            work.shared(Adaptive::new(threshold, max_depth, picture, &small), filter)
+        }
+        durer_scene::Antialias::Pov1 { threshold, depth } => work.shared(Pov1::new(threshold, depth, picture), filter),
+        durer_scene::Antialias::Pov2 { threshold, depth } => work.shared(Pov2::new(threshold, depth), filter),
+    }
+}
+
+/// Renders what is unfinished of a film.
+struct RenderAll<'a> {
+    scene: &'a CompiledScene,
+    film: &'a mut Film,
+    progress: &'a dyn Progress,
+}
+
+impl WithAntialias for RenderAll<'_> {
+    type Output = ();
+
+    fn alone<A: Antialias>(self, antialias: &A) {
+        let RenderAll { scene, film, progress } = self;
+        let tiles = film.unfinished_tiles();
+        let render = |tile| render_tile(scene, tile, antialias);
+        in_tiles(tiles, progress, film, render, |film, tile| {
+            film.put(&tile);
+            progress.finished(film.finished_pixels(), film.region().pixels());
+            progress.advanced(film);
+        });
+    }
+
+    fn shared<R: Rows>(self, rows: R, filter: PixelFilter) {
+        let RenderAll { scene, film, progress } = self;
+        let mut reconstruction = Reconstruction::new(rows, filter, film.region(), scene.picture_size());
+        let stop = || progress.stop();
+        for band in film.unfinished_bands() {
+            let mut account = Account::default();
+            if stop() || !reconstruction.sample(&SceneEye { scene }, band, &mut account, &stop) {
+                break;
+            }
+            film.put(&render_band(&reconstruction, band, account));
+            progress.finished(film.finished_pixels(), film.region().pixels());
+            progress.advanced(film);
+        }
+    }
+}
+
+/// A band of pixels, of samples that are there.
+fn render_band<R: Rows>(reconstruction: &Reconstruction<R>, band: Region, account: Account) -> Tile {
+    let places: Vec<(u32, u32)> = band.pixel_places().collect();
+    let chunks = places.par_chunks(CHUNK).map(|places| {
+        let mut splats = Vec::new();
+        let pixel = |&(x, y): &(u32, u32)| {
+            reconstruction.splats(x, y, &mut splats);
+            (color_of(&splats), reconstruction.depth(x, y))
+        };
+        places.iter().map(pixel).collect::<Vec<_>>()
+    });
+    let (pixels, depths) = chunks.collect::<Vec<_>>().into_iter().flatten().unzip();
+    Tile { region: band, pixels, depths, account }
+}
+
+/// Items are dealt out to threads in pieces of so many.
+const CHUNK: usize = 256;
+
+/// Makes something of each item, on all threads, in the order of the items.
+pub(crate) fn in_parallel<I: Sync, T: Send>(
+    items: &[I],
+    account: &mut Account,
+    make: impl Fn(&I, &mut Account) -> T + Sync,
+) -> Vec<T> {
+    in_parallel_chunks(items, account, |items, made, account| {
+        made.extend(items.iter().map(|item| make(item, account)));
+    })
+}
+
+/// As [`in_parallel`], for some items at a time.
+pub(crate) fn in_parallel_chunks<I: Sync, T: Send>(
+    items: &[I],
+    account: &mut Account,
+    make: impl Fn(&[I], &mut Vec<T>, &mut Account) + Sync,
+) -> Vec<T> {
+    let chunks = items.par_chunks(CHUNK).map(|items| {
+        let (mut made, mut account) = (Vec::with_capacity(items.len()), Account::default());
+        make(items, &mut made, &mut account);
+        (made, account)
+    });
+    let mut all = Vec::with_capacity(items.len());
+    for (made, part) in chunks.collect::<Vec<_>>() {
+        all.extend(made);
+        account.add(&part);
+    }
+    all
 }
 
 /// The part of the picture that is asked for.
@@ -93,102 +246,47 @@ pub(crate) fn region_of(scene: &CompiledScene, options: &RenderOptions) -> Resul
     }
 }
 
-/// Cuts a region into tiles, makes something of each, on all threads, and puts it all into `gathered`, tile by tile, until
+/// Makes something of each tile, on all threads of the pool, and puts it all into `gathered`, one after the other, until
 /// `progress` stops it.
 pub(crate) fn in_tiles<G: Send, T: Send>(
-    region: Region,
-    options: &RenderOptions,
+    tiles: Vec<Region>,
     progress: &dyn Progress,
-    gathered: G,
+    gathered: &mut G,
     make: impl Fn(Region) -> T + Sync,
     put: impl Fn(&mut G, T) + Sync,
-) -> Result<G, RenderError> {
-    let gathered = Mutex::new((gathered, 0));
-    let total = u64::from(region.width) * u64::from(region.height);
-    let work = || {
-        tiles(region).into_par_iter().for_each(|tile| {
-            if !progress.stop() {
-                let made = make(tile);
-                let finished = {
-                    let mut gathered = gathered.lock().unwrap_or_else(PoisonError::into_inner);
-                    put(&mut gathered.0, made);
-                    gathered.1 += u64::from(tile.width) * u64::from(tile.height);
-                    gathered.1
-                };
-                progress.finished(finished, total);
-            }
-        });
-    };
-    match options.threads {
-        None if rayon::current_thread_index().is_some() => work(),
-        threads => with_threads(threads, work)?,
-    }
-    Ok(gathered.into_inner().unwrap_or_else(PoisonError::into_inner).0)
-}
-
-/// Cuts a region into tiles, row by row.
-fn tiles(region: Region) -> Vec<Region> {
-    let starts =
-        |from: u32, length: u32| (0..length).step_by(TILE as usize).map(move |d| (from + d, TILE.min(length - d)));
-    starts(region.y, region.height)
-        .flat_map(|(y, height)| starts(region.x, region.width).map(move |(x, width)| Region { x, y, width, height }))
-        .collect()
-}
-
-/// Chooses the anti-aliasing once, outside of the loops.
-fn render_tile(scene: &CompiledScene, region: Region) -> Tile {
-    match scene.settings.antialias {
-        durer_scene::Antialias::None => render_tile_with(scene, region, &Whitted, &Grid { n: 1 }),
-        durer_scene::Antialias::Grid { n } => render_tile_with(scene, region, &Whitted, &Grid { n }),
-        durer_scene::Antialias::Recursive { threshold, max_depth } => {
-            render_tile_with(scene, region, &Whitted, &Recursive { threshold, max_depth })
+) {
+    let gathered = Mutex::new(gathered);
+    tiles.into_par_iter().for_each(|tile| {
+        if !progress.stop() {
+            let made = make(tile);
+            put(&mut gathered.lock().unwrap_or_else(PoisonError::into_inner), made);
         }
-    }
+    });
 }
 
-fn render_tile_with<I: Integrator, A: Antialias>(
-    scene: &CompiledScene,
-    region: Region,
-    integrator: &I,
-    antialias: &A,
-) -> Tile {
-    let mut tile = Tile {
-        region,
-        pixels: Vec::with_capacity(region.width as usize * region.height as usize),
-        rays: RayCounts::default(),
-        bad_samples: 0,
-        first_bad_pixel: None,
-    };
+fn render_tile<A: Antialias>(scene: &CompiledScene, region: Region, antialias: &A) -> Tile {
+    let length = region.pixels() as usize;
+    let (pixels, depths) = (Vec::with_capacity(length), Vec::with_capacity(length));
+    let mut tile = Tile { region, pixels, depths, account: Account::default() };
     let first_hits = FirstHits::find(scene, antialias, region);
-    for y in region.y..region.y + region.height {
-        for x in region.x..region.x + region.width {
-            let known = first_hits.of_pixel(tile.pixels.len());
-            let pixel = render_pixel(scene, (integrator, antialias), (x, y), known, &mut tile.rays);
-            tile.pixels.push(pixel.color);
-            if pixel.bad_samples > 0 {
-                tile.bad_samples += pixel.bad_samples;
-                tile.first_bad_pixel = tile.first_bad_pixel.or(Some((x, y)));
-            }
-        }
+    for (x, y) in region.pixel_places() {
+        let known = first_hits.of_pixel(tile.pixels.len());
+        let pixel = render_pixel(scene, (&Whitted, antialias), (x, y), known, &mut tile.account);
+        let color = if pixel.has_bad_samples { without_bad_samples(scene, antialias, (x, y)) } else { pixel.color };
+        tile.pixels.push(color);
+        tile.depths.push(pixel.depth);
     }
     tile
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// A pixel of its good samples.
+fn without_bad_samples<A: Antialias>(scene: &CompiledScene, antialias: &A, (x, y): (u32, u32)) -> Rgb {
+    let mut splats = pixel_alone(scene, antialias, x, y);
+    normalize(&mut splats);
+    color_of(&splats)
+}
 
-    #[test]
-    fn tiles_cover_a_region_once() {
-        let region = Region { x: 5, y: 7, width: 70, height: 33 };
-        let mut seen = vec![0; 70 * 33];
-        for tile in tiles(region) {
-            for y in tile.y..tile.y + tile.height {
-                for x in tile.x..tile.x + tile.width {
-                    seen[((y - 7) * 70 + x - 5) as usize] += 1;
-                }
-            }
-        }
-        assert!(seen.iter().all(|&n| n == 1));
-    }
+/// The samples of a pixel that stands alone.
+pub(crate) fn pixel_alone<A: Antialias>(scene: &CompiledScene, antialias: &A, x: u32, y: u32) -> Vec<Splat> {
+    crate::antialias::alone::list(&SceneEye { scene }, antialias, (x, y), &mut Account::default()).0
 }

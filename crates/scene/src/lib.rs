@@ -23,7 +23,7 @@ pub use material::{Attenuation, Material};
 pub use mesh::{Import, Mesh, MeshData, MeshNormals, MeshPart};
 pub use object::{Object, ObjectKind, Operation, Shape, Solid};
 pub use particles::{ParticleKind, Particles};
-pub use settings::{Antialias, Background, Fog, Picture, RenderSettings, Trees};
+pub use settings::{Antialias, Background, Fog, Picture, PixelFilter, RenderSettings, Trees};
 pub use texture::{
     Channels, Encoding, Filter, ImageAsset, ImageId, ImageTexture, Mapping, MaterialId, Paint, Pattern, Space, Texture,
     TextureId, Wrap,

@@ -29,13 +29,21 @@ pub struct RenderSettings {
     pub min_weight: f32,
     /// Where in a pixel rays are sent, and how many.
     pub antialias: Antialias,
+    /// How the samples around a pixel's middle are weighed.
+    pub filter: PixelFilter,
     /// What the search trees are built for. The picture is the same.
     pub trees: Trees,
 }
 
 impl Default for RenderSettings {
     fn default() -> RenderSettings {
-        RenderSettings { max_depth: 5, min_weight: 0.001, antialias: Antialias::default(), trees: Trees::default() }
+        RenderSettings {
+            max_depth: 5,
+            min_weight: 0.001,
+            antialias: Antialias::default(),
+            filter: PixelFilter::default(),
+            trees: Trees::default(),
+        }
     }
 }
 
@@ -69,13 +77,70 @@ pub enum Antialias {
         /// How often a pixel may be divided again; 0 gives four rays everywhere.
         max_depth: u32,
     },
+    /// Samples at the corners and in the middle of each pixel, which neighbors share; where they differ, the edge between
+    /// is searched for, or the pixel is divided. Small things are looked for where they are.
+    Adaptive {
+        /// Largest difference that is let pass: of a component, from 0 to 1 as on a screen.
+        threshold: f32,
+        /// How often a pixel may be divided.
+        max_depth: u32,
+    },
+    /// POV-Ray's method 1: one ray through the middle of each pixel; where it differs from a neighbor's, a grid of more.
+    Pov1 {
+        /// Smallest difference that counts (sum over the three components, encoded with a gamma of 2.5).
+        threshold: f32,
+        /// Cells along each side of the grid.
+        depth: u32,
+    },
+    /// POV-Ray's method 2: rays through the corners of each pixel; where they differ, each quarter in the same way.
+    Pov2 {
+        /// As for method 1.
+        threshold: f32,
+        /// A pixel has at most (2^(`depth` - 1) + 1)² rays.
+        depth: u32,
+    },
+}
+
+impl Antialias {
+    /// The adaptive one, as it is unless something else is said.
+    pub const ADAPTIVE: Antialias = Antialias::Adaptive { threshold: 0.03, max_depth: 4 };
 }
 
 impl Default for Antialias {
-    /// A 3 × 3 grid.
+    /// [`Antialias::ADAPTIVE`].
     fn default() -> Antialias {
-        Antialias::Grid { n: 3 }
+        Antialias::ADAPTIVE
     }
+}
+
+/// How samples are weighed by their distance from a pixel's middle; lengths in pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum PixelFilter {
+    /// The same everywhere in the pixel, and nothing beyond: a pixel is the mean of its area.
+    #[default]
+    Box,
+    /// Falls evenly to 0.
+    Tent {
+        /// Where it is 0.
+        radius: f64,
+    },
+    /// A bell, lowered so that it ends at 0.
+    Gaussian {
+        /// Where it is 0.
+        radius: f64,
+        /// Its standard deviation.
+        sigma: f64,
+    },
+    /// That of Mitchell and Netravali with B = C = 1/3: sharpens a little, since it is below 0 on its outer half.
+    Mitchell {
+        /// Where it is 0.
+        radius: f64,
+    },
+    /// The four-term window of Blackman and Harris: close to a bell, and smooth where it ends.
+    BlackmanHarris {
+        /// Where it is 0.
+        radius: f64,
+    },
 }
 
 /// What rays that leave the scene see.

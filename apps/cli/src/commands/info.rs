@@ -263,12 +263,14 @@ fn transfer_word(transfer: Transfer) -> &'static str {
 
 /// As `--antialias` takes it.
 fn antialias_text(antialias: Antialias) -> String {
+    let with_two = |word: &str, threshold: f32, depth: u32| format!("{word}:{},{depth}", short(f64::from(threshold)));
     match antialias {
         Antialias::None => "none".to_owned(),
         Antialias::Grid { n } => format!("grid:{n}"),
-        Antialias::Recursive { threshold, max_depth } => {
-            format!("recursive:{},{max_depth}", short(f64::from(threshold)))
-        }
+        Antialias::Recursive { threshold, max_depth } => with_two("recursive", threshold, max_depth),
+        Antialias::Adaptive { threshold, max_depth } => with_two("adaptive", threshold, max_depth),
+        Antialias::Pov1 { threshold, depth } => with_two("pov1", threshold, depth),
+        Antialias::Pov2 { threshold, depth } => with_two("pov2", threshold, depth),
     }
 }
 

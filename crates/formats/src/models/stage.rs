@@ -7,8 +7,8 @@ use bounds::{Bounds, bounds_of};
 use durer_math::functions::{cos, sin, tan};
 use durer_math::{DVec3, Rgb, any_orthonormal_pair};
 use durer_scene::{
-    Antialias, Background, Camera, Fog, Light, LightKind, Material, MaterialId, Object, ObjectKind, Paint, Picture,
-    Projection, RenderSettings, Scene, Shape, Transform, TransformStep,
+    Background, Camera, Fog, Light, LightKind, Material, MaterialId, Object, ObjectKind, Paint, Picture, Projection,
+    RenderSettings, Scene, Shape, Transform, TransformStep,
 };
 
 const WIDTH: u32 = 960;
@@ -33,7 +33,7 @@ pub(super) fn stage(model: Scene, file: &str) -> Scene {
         camera: model.camera.clone(),
         picture: Picture { width: WIDTH, height: HEIGHT, ..Picture::default() },
         // Sixteen lights to a sample are work enough.
-        render: RenderSettings { max_depth: 8, antialias: Antialias::Grid { n: 2 }, ..RenderSettings::default() },
+        render: RenderSettings { max_depth: 8, ..RenderSettings::default() },
         background: Background::Gradient { bottom: Rgb::new(0.62, 0.62, 0.63), top: Rgb::new(0.80, 0.87, 0.97) },
         lights: if model.lights.is_empty() { lights() } else { model.lights.clone() },
         ..Scene::default()

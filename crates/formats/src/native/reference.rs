@@ -12,7 +12,7 @@ use super::write::Out;
 use durer_imaging::Transfer;
 use durer_scene::{
     Antialias, Attenuation, Camera, Channels, Encoding, Falloff, Filter, Fog, LightKind, Mapping, MeshNormals,
-    MeshPart, Pattern, Picture, RenderSettings, Space, Wrap,
+    MeshPart, Pattern, Picture, PixelFilter, RenderSettings, Space, Wrap,
 };
 use std::fmt::Write as _;
 
@@ -110,6 +110,7 @@ pub fn reference_markdown() -> String {
     words(&mut page, "transfer", &Transfer::kinds());
     section(&mut page, 2, "`render`", "", &RenderSettings::about());
     family(&mut page, "`antialias`", "", &Antialias::kinds(), &[]);
+    family(&mut page, "`filter` of the picture", "", &PixelFilter::kinds(), &[]);
     family(&mut page, "`fog`", "", &Fog::kinds(), &[]);
     family(&mut page, "Lights", "Items of `lights:`.", &LightKind::kinds(), &Shine::about());
     words(&mut page, "falloff", &Falloff::kinds());

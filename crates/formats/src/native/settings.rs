@@ -9,7 +9,7 @@ use super::value::{Value, number_text};
 use super::write::{FieldsOut, Out, Writer};
 use durer_imaging::Transfer;
 use durer_math::Rgb;
-use durer_scene::{Antialias, Background, Fog, Picture, RenderSettings, Trees};
+use durer_scene::{Antialias, Background, Fog, Picture, PixelFilter, RenderSettings, Trees};
 use serde_json::{Value as Json, json};
 use std::rc::Rc;
 
@@ -31,6 +31,7 @@ record!(RenderSettings {
         => "Longest chain of rays: the eye's ray has depth 1, and rays deeper than this are black; 1 to 100.";
     min_weight: f32 = 0.001 => "Rays that count less than this in the pixel are not traced; 0 traces all.";
     antialias: Antialias = Antialias::default() => "Where in a pixel rays are sent, and how many.";
+    filter: PixelFilter = PixelFilter::Box => "How samples are weighed by their distance from a pixel's middle.";
     trees: Trees = Trees::Picture => "What the trees in which rays search are built for; the picture is the same.";
 });
 record_value!(RenderSettings, "render", RenderSettings::default());
@@ -42,7 +43,36 @@ choice! { Trees, "trees";
 }
 choice_value!(Trees, Trees::Picture);
 
+choice! { PixelFilter, "filter";
+    Box "box": "A pixel is the mean of its area.", example "filter: box", {}
+    Tent "tent": "Falls evenly to 0.", example "filter: tent",
+    {
+        radius: f64 = 1.0 => "Where it is 0, in pixels from the middle; 0.5 to 8.";
+    }
+    Gaussian "gaussian": "A bell, lowered so that it ends at 0: soft.", example "filter: {gaussian: {radius: 1.5, sigma: 0.5}}",
+    {
+        radius: f64 = 1.5 => "Where it is 0, in pixels from the middle; 0.5 to 8.";
+        sigma: f64 = 0.5 => "Its standard deviation, in pixels; 0.1 to 8.";
+    }
+    Mitchell "mitchell": "That of Mitchell and Netravali, with B = C = 1/3: crisp.", example "filter: mitchell",
+    {
+        radius: f64 = 2.0 => "Where it is 0, in pixels from the middle; 0.5 to 8.";
+    }
+    BlackmanHarris "blackman_harris": "The window of Blackman and Harris: soft, without a trace of rings.",
+    example "filter: {blackman_harris: {radius: 1.5}}",
+    {
+        radius: f64 = 1.5 => "Where it is 0, in pixels from the middle; 0.5 to 8.";
+    }
+}
+choice_value!(PixelFilter, PixelFilter::Box);
+
 choice! { Antialias, "antialias";
+    Adaptive "adaptive": "Looks closer where something is to be seen: along edges, and where small things are.",
+    example "antialias: {adaptive: {threshold: 0.02}}",
+    {
+        threshold: f32 = 0.03 => "Largest difference that is let pass: of red, green or blue, as on a screen, 0 to 1.";
+        max_depth: u32 = 4 => "How often a pixel may be divided into quarters, 0 to 7.";
+    }
     None "none": "One ray through the middle of each pixel.", example "antialias: none", {}
     Grid "grid": "n × n rays through the middles of a grid of cells; `{grid: 3}` for short.", example "antialias: {grid: 3}",
     {
@@ -54,12 +84,24 @@ choice! { Antialias, "antialias";
         threshold: f32 = 0.3 => "Largest difference that is let pass, summed over red, green and blue.";
         max_depth: u32 = 5 => "How often a pixel may be divided again, 0 to 10.";
     }
+    Pov1 "pov1": "As POV-Ray's method 1: where a pixel differs from a neighbor, a grid of rays.",
+    example "antialias: {pov1: {threshold: 0.3, depth: 3}}",
+    {
+        threshold: f32 = 0.3 => "Smallest difference that counts, summed over red, green and blue with a gamma of 2.5.";
+        depth: u32 = 3 => "Cells along each side of the grid, 1 to 9.";
+    }
+    Pov2 "pov2": "As POV-Ray's method 2: where the corners of a pixel differ, its quarters in the same way.",
+    example "antialias: {pov2: {threshold: 0.3, depth: 3}}",
+    {
+        threshold: f32 = 0.3 => "Smallest difference that counts, summed over red, green and blue with a gamma of 2.5.";
+        depth: u32 = 3 => "A pixel has at most (2^(depth - 1) + 1)² rays; 1 to 9.";
+    }
 }
 
 /// A choice like others, but for the short `grid: 3`.
 impl Value for Antialias {
     fn noun() -> String {
-        "`none`, `grid: 3` or `recursive`".to_owned()
+        "`adaptive`, `none`, `grid: 3`, `recursive`, `pov1` or `pov2`".to_owned()
     }
     fn stand_in() -> Self {
         Antialias::None
@@ -82,12 +124,17 @@ impl Value for Antialias {
     fn encode(&self, writer: &Writer<'_>) -> Out {
         match self {
             Antialias::Grid { n } => Out::Fields(vec![("grid".to_owned(), n.encode(writer))]),
-            Antialias::None | Antialias::Recursive { .. } => encode_choice(self, writer),
+            Antialias::Adaptive { .. }
+            | Antialias::None
+            | Antialias::Recursive { .. }
+            | Antialias::Pov1 { .. }
+            | Antialias::Pov2 { .. } => encode_choice(self, writer),
         }
     }
     fn schema() -> Json {
         let mut schema = super::schema::choice(&Antialias::kinds());
-        if let Some(grid) = schema.pointer_mut("/anyOf/1/properties/grid") {
+        let kinds = schema.get_mut("anyOf").and_then(Json::as_array_mut).into_iter().flatten();
+        for grid in kinds.filter_map(|kind| kind.pointer_mut("/properties/grid")) {
             *grid = json!({ "description": grid["description"], "anyOf": [{ "type": "integer", "minimum": 1, "maximum": 64 }, grid.clone()] });
         }
         schema

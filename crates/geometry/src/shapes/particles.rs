@@ -17,7 +17,7 @@ use crate::simd::blocks::{Block, Hits, SLOTS, WideRay};
 use crate::simd::boxes::{Box32, BoxRay};
 use crate::simd::{capsules, frusta, spheres};
 use crate::world::Best;
-use crate::{Bounds, Crossing, Ray};
+use crate::{Bounds, Crossing, Ray, Slender};
 use ball::Ball;
 use capsule::Capsule;
 use durer_math::{DVec2, DVec3};
@@ -35,6 +35,8 @@ trait Particle<const N: usize>: Copy {
     fn hits<S: Simd>(simd: S, block: &Block<N>, ray: &WideRay<S>, t_max: f64) -> Hits;
     /// A box around it.
     fn bounds(&self) -> Box32;
+    /// Its axis, if it is long, or its center, with its greatest radius.
+    fn slender(&self) -> Slender;
     /// As [`Shape::surface`].
     fn surface(&self, point: DVec3, face: u32) -> (DVec3, DVec3);
     /// As [`Shape::uv`].
@@ -260,6 +262,15 @@ impl Particles {
     pub fn particle_of(&self, part: u32) -> u32 {
         let (block, slot, _) = place_of(part);
         each_kind!(&self.blocks, _Kind, blocks => blocks[block].ids[slot])
+    }
+
+    /// Calls `visit` with each particle, in the particles' space; with some of them more than once.
+    pub(crate) fn each_slender(&self, visit: &mut dyn FnMut(Slender)) {
+        each_kind!(&self.blocks, Kind, blocks => {
+            for block in blocks {
+                (0..SLOTS).for_each(|slot| visit(Kind::of(block.numbers(slot)).slender()));
+            }
+        });
     }
 
     #[inline(always)]

@@ -51,6 +51,9 @@ mod tests {
         fn keep(&mut self, weight: f32, _: Sample) {
             self.weights += weight;
         }
+        fn divided(&mut self, depth: u32) {
+            assert_eq!(depth, 0);
+        }
     }
 
     #[test]

@@ -28,6 +28,7 @@ impl Antialias for Recursive {
 impl Recursive {
     fn square(&self, corner: DVec2, side: f64, divisions: u32, samples: &mut impl Samples) {
         let four = quarters(corner, side).map(|point| samples.take(point));
+        samples.divided(divisions);
         let differs = |s: &Sample| difference(four[0].color, s.color) > self.threshold;
         if divisions < self.max_depth && four[1..].iter().any(differs) {
             for (x, y) in QUARTERS {
@@ -65,6 +66,7 @@ mod tests {
         count: u32,
         weights: f32,
         pixel: f32,
+        depth: u32,
     }
 
     impl<F: Fn(DVec2) -> f32> Samples for Pictured<F> {
@@ -76,11 +78,14 @@ mod tests {
             self.weights += weight;
             self.pixel += weight * sample.color.r;
         }
+        fn divided(&mut self, depth: u32) {
+            self.depth = self.depth.max(depth);
+        }
     }
 
     /// Rays taken, the sum of the weights, and the pixel.
     fn run(max_depth: u32, picture: impl Fn(DVec2) -> f32) -> (u32, f32, f32) {
-        let mut samples = Pictured { picture, count: 0, weights: 0.0, pixel: 0.0 };
+        let mut samples = Pictured { picture, count: 0, weights: 0.0, pixel: 0.0, depth: 0 };
         Recursive { threshold: 0.3, max_depth }.pixel(DVec2::ZERO, &mut samples);
         (samples.count, samples.weights, samples.pixel)
     }

@@ -2,7 +2,7 @@
 
 use super::Step;
 use super::values::Checker;
-use crate::{Antialias, Background, Camera, Fog, Light, LightKind, Material, Projection, Scene};
+use crate::{Antialias, Background, Camera, Fog, Light, LightKind, Material, PixelFilter, Projection, Scene};
 
 /// The most rays that one ray of the eye may split into.
 const MOST_RAYS: f64 = 1e8;
@@ -105,7 +105,33 @@ fn render(c: &mut Checker<'_>) {
             c.require((0.0..=1e6).contains(&threshold), "threshold", "threshold must be from 0 to 1e6");
             c.within("max_depth", max_depth.into(), 0.0, 10.0);
         }),
+        Antialias::Adaptive { threshold, max_depth } => c.field("adaptive", |c| {
+            c.within("threshold", threshold.into(), 0.0, 1.0);
+            c.within("max_depth", max_depth.into(), 0.0, 7.0);
+        }),
+        Antialias::Pov1 { threshold, depth } => c.field("pov1", |c| pov(c, threshold, depth)),
+        Antialias::Pov2 { threshold, depth } => c.field("pov2", |c| pov(c, threshold, depth)),
     });
+    c.field("filter", |c| filter(c, settings.filter));
+}
+
+fn pov(c: &mut Checker<'_>, threshold: f32, depth: u32) {
+    c.within("threshold", threshold.into(), 0.0, 10.0);
+    c.within("depth", depth.into(), 1.0, 9.0);
+}
+
+fn filter(c: &mut Checker<'_>, filter: PixelFilter) {
+    let radius = |c: &mut Checker<'_>, radius: f64| _ = c.within("radius", radius, 0.5, 8.0);
+    match filter {
+        PixelFilter::Box => {}
+        PixelFilter::Tent { radius: r } => c.field("tent", |c| radius(c, r)),
+        PixelFilter::Gaussian { radius: r, sigma } => c.field("gaussian", |c| {
+            radius(c, r);
+            c.within("sigma", sigma, 0.1, 8.0);
+        }),
+        PixelFilter::Mitchell { radius: r } => c.field("mitchell", |c| radius(c, r)),
+        PixelFilter::BlackmanHarris { radius: r } => c.field("blackman_harris", |c| radius(c, r)),
+    }
 }
 
 fn fog(c: &mut Checker<'_>, fog: Fog) {

@@ -4,7 +4,8 @@ use crate::exit::Failure;
 use crate::numbers::{bytes, short, thousands};
 use crate::output;
 use durer::imaging::FileFormat;
-use durer::{Film, RayCounts, Region};
+use durer::math::DVec2;
+use durer::{BadSample, Film, RayCounts, Region};
 use serde_json::json;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -18,7 +19,7 @@ pub(super) struct Report {
     finished: u64,
     rays: RayCounts,
     bad_samples: u64,
-    first_bad_pixel: Option<(u32, u32)>,
+    first_bad_sample: Option<BadSample>,
     bytes: usize,
     seconds: Seconds,
 }
@@ -43,7 +44,7 @@ impl Report {
             finished: film.finished_pixels(),
             rays: film.rays(),
             bad_samples: film.bad_samples(),
-            first_bad_pixel: film.first_bad_pixel(),
+            first_bad_sample: film.first_bad_sample(),
             bytes: 0,
             seconds: Seconds::default(),
         }
@@ -115,11 +116,14 @@ impl Report {
 
     /// Says which samples had no colour.
     pub(super) fn tell_bad_samples(&self) {
-        let Some((x, y)) = self.first_bad_pixel else { return };
+        let Some(BadSample { at }) = self.first_bad_sample else { return };
+        let (x, y) = pixel_of(at);
         output::warning(&format!(
-            "{} of the samples had no finite color and count as black, the first in pixel {x},{y} \
+            "{} of the samples had no finite color and were left out, the first at {},{} in pixel {x},{y} \
              (see it with: durer explain {} --pixel {x},{y})",
             thousands(self.bad_samples),
+            at.x,
+            at.y,
             self.scene.display(),
         ));
     }
@@ -165,7 +169,15 @@ impl Report {
             "mrays_per_second": self.mrays_per_second(),
             "seconds": { "load": load, "build": build, "render": render, "write": write },
             "bad_samples": self.bad_samples,
-            "first_bad_pixel": self.first_bad_pixel.map(|(x, y)| json!([x, y])),
+            "first_bad_sample": self.first_bad_sample.map(|BadSample { at }| {
+                let (x, y) = pixel_of(at);
+                json!({ "pixel": [x, y], "at": [at.x, at.y] })
+            }),
         }))
     }
+}
+
+/// The pixel that a sample lies in.
+fn pixel_of(at: DVec2) -> (u32, u32) {
+    (at.x as u32, at.y as u32)
 }

@@ -1,6 +1,7 @@
 //! One sphere of many.
 
 use super::{LARGE_LEAVES, Particle, wide};
+use crate::Slender;
 use crate::bvh::build::Leaves;
 use crate::shapes::Shape;
 use crate::shapes::sphere::Sphere;
@@ -46,6 +47,10 @@ impl Particle<{ spheres::NUMBERS }> for Ball {
     fn bounds(&self) -> Box32 {
         let [min, max] = self.corners();
         Box32::new(min, max)
+    }
+
+    fn slender(&self) -> Slender {
+        Slender { ends: [self.center; 2], radius: self.radius, core: self.radius }
     }
 
     fn surface(&self, point: DVec3, _face: u32) -> (DVec3, DVec3) {

@@ -3,6 +3,7 @@
 use super::axial::Axis;
 use super::ball::Ball;
 use super::{Particle, SMALL_LEAVES, wide};
+use crate::Slender;
 use crate::bvh::build::Leaves;
 use crate::shapes::sphere::longitude;
 use crate::simd::blocks::{Block, Hits, WideRay};
@@ -46,6 +47,10 @@ impl Particle<{ capsules::NUMBERS }> for Capsule {
         let ends = [self.axis.base, self.axis.top];
         let [base, top] = ends.map(|center| Ball { center, radius: self.radius }.bounds());
         base.union(top)
+    }
+
+    fn slender(&self) -> Slender {
+        Slender { ends: [self.axis.base, self.axis.top], radius: self.radius, core: self.radius }
     }
 
     fn surface(&self, point: DVec3, _face: u32) -> (DVec3, DVec3) {

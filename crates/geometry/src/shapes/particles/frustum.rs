@@ -2,6 +2,7 @@
 
 use super::axial::Axis;
 use super::{Particle, SMALL_LEAVES, wide};
+use crate::Slender;
 use crate::bvh::build::Leaves;
 use crate::shapes::sphere::longitude;
 use crate::simd::blocks::{Block, Hits, WideRay};
@@ -78,6 +79,11 @@ impl<const OPEN: bool> Particle<{ frusta::NUMBERS }> for Frustum<OPEN> {
         let min = (self.axis.base - base).min(self.axis.top - top);
         let max = (self.axis.base + base).max(self.axis.top + top);
         Box32::new(min.to_array().map(round_down), max.to_array().map(round_up))
+    }
+
+    fn slender(&self) -> Slender {
+        let core = (self.radii[0] + self.radii[1]) * 0.5;
+        Slender { ends: [self.axis.base, self.axis.top], radius: self.widest(), core }
     }
 
     fn surface(&self, point: DVec3, face: u32) -> (DVec3, DVec3) {

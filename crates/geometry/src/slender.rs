@@ -1,0 +1,120 @@
+//! Where small and thin things are, without a ray: what the samples of a picture may all miss.
+
+use crate::Bounds;
+use durer_math::{DMat3, DVec3};
+
+/// A thing, as a line with a radius.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slender {
+    /// The ends of the line; for something round they are the same.
+    pub ends: [DVec3; 2],
+    /// All of the thing is within this distance of the line.
+    pub radius: f64,
+    /// About the middle of the line the thing covers this much to both sides, from wherever it is seen. For shapes of which
+    /// only a box is known this is a guess.
+    pub core: f64,
+}
+
+/// How a shape fills its box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// As an ellipsoid.
+    Ball,
+    /// As a cylinder, at least in its middle.
+    Rod,
+    /// In a way that is not known.
+    Any,
+}
+
+impl Slender {
+    /// What is inside a box, along its longest edge: in its own space, and placed by an affine map.
+    pub(crate) fn of_box(bounds: &Bounds, form: Form, map: &DMat3, origin: DVec3) -> Slender {
+        let (center, half) = (origin + *map * bounds.center(), bounds.size() * 0.5);
+        let mut axes = [map.x_axis * half.x, map.y_axis * half.y, map.z_axis * half.z];
+        axes.sort_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+        let ([thin, thick, _], long) = (axes.map(DVec3::length), axes[2]);
+        let ends = |long: DVec3| [center - long, center + long];
+        match form {
+            Form::Ball => Slender { ends: ends(long - long.normalize_or_zero() * thick), radius: thick, core: thin },
+            Form::Rod => Slender { ends: ends(long), radius: thick, core: thin },
+            Form::Any => Slender { ends: ends(long), radius: thin.hypot(thick), core: thin.hypot(thick) * 0.5 },
+        }
+    }
+
+    /// Moved by an affine map.
+    pub(crate) fn mapped(self, map: &DMat3, origin: DVec3) -> Slender {
+        let [least, greatest] = stretches(map);
+        let ends = self.ends.map(|end| origin + *map * end);
+        Slender { ends, radius: self.radius * greatest, core: self.core * least }
+    }
+}
+
+/// Bounds on the least and the greatest stretch of a map; exact where it keeps the right angles between the axes.
+fn stretches(map: &DMat3) -> [f64; 2] {
+    let columns = [map.x_axis, map.y_axis, map.z_axis];
+    let [x, y, z] = columns;
+    let lengths = columns.map(DVec3::length);
+    let (least, greatest) = lengths.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &l| (a.min(l), b.max(l)));
+    let skew = x.dot(y).abs().max(y.dot(z).abs()).max(z.dot(x).abs());
+    if skew <= 1e-9 * least * least {
+        return [least, greatest];
+    }
+    let size = |map: &DMat3| [map.x_axis, map.y_axis, map.z_axis].map(DVec3::length_squared).iter().sum::<f64>().sqrt();
+    [1.0 / size(&map.inverse()), size(map)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::particles::Particles;
+    use crate::{BuildFor, Primitive};
+    use durer_math::DAffine3;
+    use std::sync::Arc;
+
+    fn slender(primitive: &Primitive) -> Vec<Slender> {
+        let mut all = Vec::new();
+        primitive.each_slender(|one| all.push(one));
+        all
+    }
+
+    #[test]
+    fn a_ball_is_a_point_with_its_radius() {
+        let map = DAffine3::from_translation(DVec3::X) * DAffine3::from_scale(DVec3::splat(3.0));
+        let [ball] = slender(&Primitive::sphere(DVec3::Y, 2.0, &map))[..] else { panic!("one thing") };
+        assert_eq!(ball, Slender { ends: [DVec3::new(1.0, 3.0, 0.0); 2], radius: 6.0, core: 6.0 });
+    }
+
+    #[test]
+    fn a_cylinder_is_its_axis() {
+        let (base, top) = (DVec3::new(1.0, 2.0, 3.0), DVec3::new(5.0, 2.0, 0.0));
+        let [rod] = slender(&Primitive::cylinder(base, top, 0.01, false, &DAffine3::IDENTITY))[..] else {
+            panic!("one thing")
+        };
+        assert!((rod.radius - 0.01).abs() < 1e-12 && (rod.core - 0.01).abs() < 1e-12, "{rod:?}");
+        let near = |a: DVec3, b: DVec3| (a - b).length() < 1e-12;
+        assert!(near(rod.ends[0], base) && near(rod.ends[1], top), "{rod:?}");
+    }
+
+    #[test]
+    fn each_particle_is_one_and_a_plane_is_none() {
+        let ball = |index: usize| (DVec3::X * index as f64, 0.5);
+        let particles = Arc::new(Particles::spheres(3, BuildFor::Preview, ball));
+        let map = DAffine3::from_scale(DVec3::new(1.0, 2.0, 4.0));
+        let mut all = slender(&Primitive::particles(particles, &map));
+        all.sort_by(|a, b| a.ends[0].x.total_cmp(&b.ends[0].x));
+        all.dedup();
+        assert_eq!(all.iter().map(|one| one.ends[0].x).collect::<Vec<_>>(), [0.0, 1.0, 2.0]);
+        assert!(all.iter().all(|one| one.radius == 2.0 && one.core == 0.5));
+        assert!(slender(&Primitive::plane(DVec3::ZERO, DVec3::Y, &DAffine3::IDENTITY)).is_empty());
+    }
+
+    #[test]
+    fn a_skewed_map_is_bounded() {
+        let map = DMat3::from_cols(DVec3::X, DVec3::new(3.0, 1.0, 0.0), DVec3::Z);
+        let [least, greatest] = stretches(&map);
+        // The singular values of this shear are (√13 ± 3) / 2.
+        let exact = [(13.0_f64.sqrt() - 3.0) / 2.0, (13.0_f64.sqrt() + 3.0) / 2.0];
+        assert!(least <= exact[0] && greatest >= exact[1], "{least} {greatest}");
+        assert!(least > 0.2 * exact[0] && greatest < 1.5 * exact[1], "{least} {greatest}");
+    }
+}

@@ -1,0 +1,218 @@
+//! Things so small or thin in the picture that samples may miss them: known before a ray is traced, since it is known where
+//! they are.
+
+use super::super::lattice::UNIT;
+use super::Cell;
+use crate::camera::Camera;
+use crate::compile::CompiledScene;
+use crate::film::Region;
+use durer_geometry::Slender;
+use durer_math::DVec2;
+
+/// Thinner things are not looked for more closely: the samples are then so close to each other.
+const MOST_LEVEL: u8 = 6;
+/// Overlaps of a thing and a square that are smaller than this, in pixels, are left to chance.
+const SPECK: f64 = 0.04;
+/// Rows in a bucket.
+const BUCKET: u32 = 32;
+
+/// A thing in the picture, in pixels.
+#[derive(Clone, Copy, Debug)]
+struct SmallThing {
+    ends: [DVec2; 2],
+    radius: f64,
+    /// How far away its nearest and its farthest point are.
+    depths: [f32; 2],
+    /// How often pixels must be divided so that samples cannot all miss it.
+    level: u8,
+}
+
+/// All of them, by the rows that they touch.
+#[derive(Debug, Default)]
+pub(crate) struct SmallThings {
+    things: Vec<SmallThing>,
+    buckets: Vec<Vec<u32>>,
+}
+
+/// Those of some pixels, pixel by pixel.
+#[derive(Debug, Default)]
+pub(crate) struct OfPixels {
+    region: Option<Region>,
+    /// Where those of each pixel start, and where the last ones end.
+    starts: Vec<u32>,
+    things: Vec<u32>,
+}
+
+impl SmallThings {
+    /// Those of a scene.
+    pub(crate) fn of(scene: &CompiledScene) -> SmallThings {
+        let (width, height) = scene.picture_size();
+        let mut things = Vec::new();
+        for primitive in scene.world.primitives() {
+            primitive.each_slender(|slender| things.extend(SmallThing::seen(&slender, &scene.camera, (width, height))));
+        }
+        SmallThings::sorted(things, height)
+    }
+
+    /// Those of a picture so high.
+    fn sorted(things: Vec<SmallThing>, height: u32) -> SmallThings {
+        let mut buckets = vec![Vec::new(); height.div_ceil(BUCKET) as usize];
+        for (index, thing) in (0..).zip(&things) {
+            let [first, last] = thing.rows(height);
+            for bucket in first / BUCKET..=last / BUCKET {
+                buckets[bucket as usize].push(index);
+            }
+        }
+        SmallThings { things, buckets }
+    }
+
+    /// Discs in front of all else: their middles and radii, in pixels.
+    #[cfg(test)]
+    pub(crate) fn discs(discs: impl IntoIterator<Item = (DVec2, f64)>, height: u32) -> SmallThings {
+        let things = discs.into_iter().filter_map(|(at, radius)| SmallThing::new([at; 2], radius, radius, [0.4, 0.6]));
+        SmallThings::sorted(things.collect(), height)
+    }
+
+    /// Sorts out which of them touch which pixels.
+    pub(super) fn of_pixels(&self, region: Region) -> OfPixels {
+        if self.things.is_empty() {
+            return OfPixels::default();
+        }
+        let last = (region.y + region.height - 1) / BUCKET;
+        let mut near: Vec<u32> =
+            (region.y / BUCKET..=last).flat_map(|b| self.buckets[b as usize].iter().copied()).collect();
+        near.sort_unstable();
+        near.dedup();
+        let mut touched: Vec<(u32, u32)> = Vec::new();
+        for index in near {
+            self.things[index as usize].each_pixel(region, |pixel| touched.push((pixel, index)));
+        }
+        touched.sort_unstable();
+        let pixels = region.pixels() as usize;
+        let mut starts = vec![0; pixels + 1];
+        for &(pixel, _) in &touched {
+            starts[pixel as usize + 1] += 1;
+        }
+        for pixel in 0..pixels {
+            starts[pixel + 1] += starts[pixel];
+        }
+        OfPixels { region: Some(region), starts, things: touched.into_iter().map(|(_, index)| index).collect() }
+    }
+
+    /// How often the pixel must be divided where a cell is: until no small thing in it can be missed. One that is seen there
+    /// is not missed, and one that is hidden behind all that is seen there, either. `depths` are those of what is seen.
+    pub(super) fn depth_needed(&self, of_pixels: &OfPixels, cell: Cell, depths: impl FnOnce() -> [f32; 5]) -> u8 {
+        let things = of_pixels.at(cell);
+        if things.is_empty() {
+            return 0;
+        }
+        let depths = depths();
+        let missed = |thing: &&SmallThing| {
+            let [near, far] = thing.depths;
+            let is_hidden = depths.iter().all(|&depth| depth <= near);
+            let is_seen = depths.iter().any(|depth| (near..=far).contains(depth));
+            thing.level > cell.level && !is_hidden && !is_seen && thing.touches(cell)
+        };
+        things
+            .iter()
+            .map(|&index| &self.things[index as usize])
+            .filter(missed)
+            .map(|thing| thing.level)
+            .max()
+            .unwrap_or(0)
+    }
+}
+
+impl OfPixels {
+    fn at(&self, cell: Cell) -> &[u32] {
+        let Some(region) = self.region else { return &[] };
+        let (x, y) = cell.pixel();
+        let pixel = ((y - region.y) * region.width + x - region.x) as usize;
+        &self.things[self.starts[pixel] as usize..self.starts[pixel + 1] as usize]
+    }
+}
+
+impl SmallThing {
+    /// `None` if it is out of the picture, too.
+    fn seen(slender: &Slender, camera: &Camera, (width, height): (u32, u32)) -> Option<SmallThing> {
+        let [a, b] = camera.project_line(slender.ends)?;
+        let radius = slender.radius * a.scale.max(b.scale);
+        let core = slender.core * a.scale.min(b.scale);
+        let (min, max) = (a.at.min(b.at) - radius, a.at.max(b.at) + radius);
+        let is_in_picture = max.x >= 0.0 && max.y >= 0.0 && min.x <= f64::from(width) && min.y <= f64::from(height);
+        // A little more, for the rounding.
+        let reach = slender.radius * 1.001;
+        let depths = [a.distance.min(b.distance) - reach, a.distance.max(b.distance) + reach].map(|depth| depth as f32);
+        if is_in_picture { SmallThing::new([a.at, b.at], radius, core, depths) } else { None }
+    }
+
+    /// `None` if it is so large that samples meet it.
+    fn new(ends: [DVec2; 2], radius: f64, core: f64, depths: [f32; 2]) -> Option<SmallThing> {
+        // Between corners and middles of pixels there is room for a circle of half a pixel. What is wide is met where it
+        // is widest, though its outline may have thin parts.
+        if radius > 1.0 || core >= 0.5 {
+            return None;
+        }
+        let level = (0..MOST_LEVEL).find(|&level| 0.95 * core * f64::from(1_u32 << level) >= 0.5).unwrap_or(MOST_LEVEL);
+        Some(SmallThing { ends, radius, depths, level })
+    }
+
+    /// The first and the last row of pixels that it may touch.
+    fn rows(&self, height: u32) -> [u32; 2] {
+        let [a, b] = self.ends;
+        let row = |y: f64| y.clamp(0.0, f64::from(height - 1)) as u32;
+        [row(a.y.min(b.y) - self.radius), row(a.y.max(b.y) + self.radius)]
+    }
+
+    /// Calls `visit` with the pixels of a region that it may touch, counted row by row.
+    fn each_pixel(&self, region: Region, mut visit: impl FnMut(u32)) {
+        let [a, b] = self.ends;
+        let [first, last] = self.rows(region.y + region.height);
+        let along = b - a;
+        for row in first.max(region.y)..=last {
+            // The part of the line from which the row can be reached.
+            let (top, bottom) = (f64::from(row) - self.radius, f64::from(row + 1) + self.radius);
+            let at = |y: f64| if along.y == 0.0 { 0.0 } else { ((y - a.y) / along.y).clamp(0.0, 1.0) };
+            let [from, to] = if along.y == 0.0 { [0.0, 1.0] } else { [at(top), at(bottom)] };
+            let (from, to) = (a.x + along.x * from, a.x + along.x * to);
+            let column = |x: f64| x.clamp(0.0, f64::from(u32::MAX)) as u32;
+            let (left, right) = (column(from.min(to) - self.radius), column(from.max(to) + self.radius));
+            for x in left.max(region.x)..=right.min(region.x + region.width - 1) {
+                visit((row - region.y) * region.width + x - region.x);
+            }
+        }
+    }
+
+    /// True if it reaches into a cell by more than nothing to speak of.
+    fn touches(&self, cell: Cell) -> bool {
+        let side = f64::from(cell.side()) / f64::from(UNIT);
+        let min = cell.place.point();
+        let max = min + side;
+        let [a, b] = self.ends;
+        let overlap = (a.max(b) + self.radius).min(max) - (a.min(b) - self.radius).max(min);
+        overlap.min_element() > 0.0 && overlap.x * overlap.y > SPECK && distance([a, b], [min, max]) < self.radius
+    }
+}
+
+/// From a line to a square.
+fn distance([a, b]: [DVec2; 2], [min, max]: [DVec2; 2]) -> f64 {
+    let to_square = |point: DVec2| (point - point.clamp(min, max)).length();
+    let corners = [min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)];
+    let along = b - a;
+    let squared = along.length_squared();
+    let to_line = |point: DVec2| {
+        let t = if squared > 0.0 { ((point - a).dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
+        (a + along * t - point).length()
+    };
+    // A line that crosses the square has corners on both sides of it, and a point in it.
+    let sides = corners.map(|corner| along.perp_dot(corner - a) > 0.0);
+    let crosses = sides.contains(&true) && sides.contains(&false) && {
+        let (low, high) = (a.min(b), a.max(b));
+        low.cmple(max).all() && high.cmpge(min).all()
+    };
+    if crosses {
+        0.0
+    } else {
+        corners.map(to_line).into_iter().chain([a, b].map(to_square)).fold(f64::INFINITY, f64::min)
+    }
+}

@@ -1,0 +1,133 @@
+//! A point of the picture becomes what is seen there.
+
+use crate::compile::CompiledScene;
+use crate::film::Account;
+use crate::holes::Known;
+use crate::integrators::{Integrator, whitted::Whitted};
+use crate::observer::{NotTraced, Observer, RayCounts, RayKind, SurfaceSeen};
+use durer_geometry::{LANES, Packet, Ray};
+use durer_imaging::Transfer;
+use durer_math::{DVec2, Rgb};
+
+/// What is seen through a point of the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Look {
+    /// In linear light; black if it was not finite.
+    pub(crate) color: Rgb,
+    /// As it looks on a screen, from 0 to 1.
+    pub(crate) seen: [f32; 3],
+    /// What is hit first: a number for each thing.
+    pub(crate) thing: u32,
+    /// How far away it is, infinite for the background.
+    pub(crate) depth: f32,
+    /// The normal of shading there, 0 for the background.
+    pub(crate) normal: [f32; 3],
+    pub(crate) is_finite: bool,
+}
+
+/// Looks at points of a picture.
+pub(crate) trait Eye: Sync {
+    /// Adds what is seen through each of these points, in pixels.
+    fn looks(&self, points: &[DVec2], looks: &mut Vec<Look>, account: &mut Account);
+
+    /// What is seen through one point.
+    fn look(&self, point: DVec2, account: &mut Account) -> Look {
+        let mut looks = Vec::with_capacity(1);
+        self.looks(&[point], &mut looks, account);
+        looks[0]
+    }
+}
+
+/// Looks at a scene, with the integrator.
+pub(crate) struct SceneEye<'s> {
+    pub(crate) scene: &'s CompiledScene,
+}
+
+impl Eye for SceneEye<'_> {
+    fn looks(&self, points: &[DVec2], looks: &mut Vec<Look>, account: &mut Account) {
+        if let Some(vantage) = &self.scene.eye_vantage {
+            looks.extend(points.iter().map(|&at| self.look_at(at, Known::Vantage(vantage), account)));
+            return;
+        }
+        for points in points.chunks(LANES) {
+            let [point] = points else {
+                let rays: arrayvec::ArrayVec<Ray, LANES> = points.iter().map(|&at| self.scene.camera.ray(at)).collect();
+                let hits = self.scene.world.closest_hits(&Packet::new(&rays), f64::INFINITY, u32::MAX);
+                let known = points.iter().zip(hits);
+                looks.extend(known.map(|(&at, hit)| self.look_at(at, Known::Hit(hit), account)));
+                continue;
+            };
+            looks.push(self.look_at(*point, Known::Nothing, account));
+        }
+    }
+}
+
+impl SceneEye<'_> {
+    fn look_at(&self, at: DVec2, known: Known<'_>, account: &mut Account) -> Look {
+        let mut watch = Watch { scene: self.scene, rays: &mut account.rays, first: None };
+        let color = Whitted.radiance(self.scene, &self.scene.camera.ray(at), known, &mut watch);
+        let First { thing, depth, normal } = watch.first.unwrap_or(First::BACKGROUND);
+        let is_finite = color.is_finite();
+        if !is_finite {
+            account.bad_sample(at);
+        }
+        let color = if is_finite { color } else { Rgb::BLACK };
+        Look { color, seen: seen(color, self.scene.picture.transfer), thing, depth, normal, is_finite }
+    }
+}
+
+/// About what a screen shows. The root is close to the curve of sRGB, and much quicker.
+fn seen(color: Rgb, transfer: Transfer) -> [f32; 3] {
+    let curve = |c: f32| match transfer {
+        Transfer::Srgb => c.sqrt(),
+        Transfer::Linear => c,
+    };
+    color.to_array().map(|c| if c > 0.0 { curve(c.min(1.0)) } else { 0.0 })
+}
+
+/// What is hit first.
+#[derive(Clone, Copy)]
+struct First {
+    thing: u32,
+    depth: f32,
+    normal: [f32; 3],
+}
+
+impl First {
+    const BACKGROUND: First = First { thing: u32::MAX, depth: f32::INFINITY, normal: [0.0; 3] };
+}
+
+/// Counts rays, and notes the first surface.
+struct Watch<'a> {
+    scene: &'a CompiledScene,
+    rays: &'a mut RayCounts,
+    first: Option<First>,
+}
+
+impl Observer for Watch<'_> {
+    fn ray_begins(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb) {
+        self.rays.ray_begins(kind, depth, ray, weight);
+    }
+
+    fn surface(&mut self, seen: &SurfaceSeen) {
+        if self.first.is_none() {
+            // Numbers of things that lie side by side in the picture differ, which is all that matters of them.
+            let thing = seen.hit.primitive.wrapping_mul(0x9e37_79b1) ^ self.scene.piece_of(&seen.hit);
+            let normal = seen.normal.to_array().map(|c| c as f32);
+            self.first = Some(First { thing, depth: seen.length as f32, normal });
+        }
+    }
+
+    fn shadow_ray(&mut self) {
+        self.rays.shadow_ray();
+    }
+
+    fn not_traced(&mut self, kind: RayKind, weight: Rgb, why: NotTraced) {
+        self.rays.not_traced(kind, weight, why);
+    }
+
+    fn ray_ends(&mut self) {
+        // The eye's ray met nothing: what its children meet does not exist.
+        self.first = self.first.or(Some(First::BACKGROUND));
+    }
+}
