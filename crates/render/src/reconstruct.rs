@@ -182,9 +182,9 @@ pub(crate) fn normalize(splats: &mut [Splat]) {
     for splat in &mut *splats {
         splat.weight = if splat.is_finite { splat.weight } else { 0.0 };
     }
-    let sum: f32 = splats.iter().map(|splat| splat.weight).sum();
+    let sum: f64 = splats.iter().map(|splat| f64::from(splat.weight)).sum();
     if sum > 0.0 {
-        splats.iter_mut().for_each(|splat| splat.weight /= sum);
+        splats.iter_mut().for_each(|splat| splat.weight = (f64::from(splat.weight) / sum) as f32);
     }
 }
 

@@ -196,7 +196,12 @@ impl<'s> Adaptive<'s> {
     }
 
     fn not_explained(&self, cell: Cell) -> Outcome {
-        if cell.level < self.max_depth { Outcome::Divided } else { Outcome::Done(NEAREST) }
+        match cell.level < self.max_depth {
+            // What is small is the likely cause, and known to the neighbors, too.
+            true if self.small_of_pixels.has_any(cell) => Outcome::DividedToSee,
+            true => Outcome::Divided,
+            false => Outcome::Done(NEAREST),
+        }
     }
 
     fn verdict(&self, cell: Cell) -> Verdict {

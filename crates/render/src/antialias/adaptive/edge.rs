@@ -13,9 +13,9 @@ const BITS: u32 = 7;
 /// In the middle an edge is looked for this far from the straight line, in lengths of that line.
 const BEND: f64 = 0.4;
 /// ... to one part of 2 to this power.
-const BEND_BITS: u32 = 3;
+const BEND_BITS: u32 = 4;
 /// An edge that is bent by less than this is straight.
-const STRAIGHT: f64 = 0.015;
+const STRAIGHT: f64 = 0.01;
 /// An edge that cuts off less than this (its length, in sides of the square) is taken to be straight.
 const SHORT: f64 = 0.15;
 

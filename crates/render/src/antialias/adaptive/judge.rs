@@ -27,6 +27,11 @@ const SIDE: f32 = 0.3;
 /// Where colours change evenly, the samples tell the mean though they differ this many thresholds.
 const EVEN: f32 = 6.0;
 
+/// By how much more colours may differ in squares of a pixel that was divided so often: what is wrong in a quarter matters a
+/// quarter as much, and there are four of them, wrong in ways that have little to do with each other, so together they are
+/// wrong by about half. This grows by the root of two a level, to be careful.
+const GROWTH: [f32; 8] = [1.0, 1.41, 2.0, 2.83, 4.0, 5.66, 8.0, 11.31];
+
 /// How much two looks differ, as seen.
 pub(super) fn difference(a: &Look, b: &Look) -> f32 {
     a.seen.iter().zip(b.seen).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
@@ -60,9 +65,7 @@ impl Judge {
                 }
             }
         }
-        // What is wrong in a quarter matters a quarter as much; but there are four of them, which are wrong by chance in
-        // different ways, so together they are wrong by half.
-        let threshold = self.threshold * f32::from(1_u16 << level);
+        let threshold = self.threshold * GROWTH[usize::from(level).min(GROWTH.len() - 1)];
         let surface = looks.iter().all(|look| same_surface(look, looks[4]));
         if range <= threshold {
             // Between things that look alike there may be something that does not.

@@ -11,8 +11,8 @@ use durer_math::DVec2;
 
 /// Thinner things are not looked for more closely: the samples are then so close to each other.
 const MOST_LEVEL: u8 = 6;
-/// Overlaps of a thing and a square that are smaller than this, in pixels, are left to chance.
-const SPECK: f64 = 0.04;
+/// Squares that a thing reaches into with less than this part of its radius may miss it.
+const HEART: f64 = 0.36;
 /// Rows in a bucket.
 const BUCKET: u32 = 32;
 
@@ -124,6 +124,11 @@ impl SmallThings {
 }
 
 impl OfPixels {
+    /// True if some touch the pixel where a cell is.
+    pub(super) fn has_any(&self, cell: Cell) -> bool {
+        !self.at(cell).is_empty()
+    }
+
     fn at(&self, cell: Cell) -> &[u32] {
         let Some(region) = self.region else { return &[] };
         let (x, y) = cell.pixel();
@@ -183,14 +188,11 @@ impl SmallThing {
         }
     }
 
-    /// True if it reaches into a cell by more than nothing to speak of.
+    /// True if it reaches into a cell with more than its rim: what it has there beyond that is left to chance.
     fn touches(&self, cell: Cell) -> bool {
-        let side = f64::from(cell.side()) / f64::from(UNIT);
         let min = cell.place.point();
-        let max = min + side;
-        let [a, b] = self.ends;
-        let overlap = (a.max(b) + self.radius).min(max) - (a.min(b) - self.radius).max(min);
-        overlap.min_element() > 0.0 && overlap.x * overlap.y > SPECK && distance([a, b], [min, max]) < self.radius
+        let max = min + f64::from(cell.side()) / f64::from(UNIT);
+        distance(self.ends, [min, max]) <= self.radius * HEART
     }
 }
 
