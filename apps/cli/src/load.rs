@@ -4,7 +4,7 @@ use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::{Phase, Show};
 use clap::Args;
-use durer::{CheckedScene, CompiledScene, Diagnostics, LoadOptions, Loaded};
+use durer::{CheckedScene, CompiledScene, Diagnostics, LoadOptions, Loaded, SimdLevel};
 use std::path::{Path, PathBuf};
 
 /// Which scene, and what it may read.
@@ -53,8 +53,13 @@ impl SceneArgs {
 
     /// Makes a loaded scene ready for rays.
     pub(crate) fn compile(&self, scene: &CheckedScene, show: Show) -> CompiledScene {
+        self.compile_for(scene, SimdLevel::best(), show)
+    }
+
+    /// Makes a loaded scene ready for rays, with this instruction set.
+    pub(crate) fn compile_for(&self, scene: &CheckedScene, simd: SimdLevel, show: Show) -> CompiledScene {
         let _phase = Phase::begin(format!("building {}", self.name()), show);
-        durer::compile(scene)
+        durer::compile_for(scene, simd)
     }
 
     fn options(&self) -> LoadOptions {

@@ -26,7 +26,7 @@ pub use durer_math as math;
 pub use durer_render::{
     Bounds, CompiledScene, Contribution, Element, Film, GeometryMemory, HeatMap, HitExplanation, HoleExplanation,
     LightExplanation, NotTraced, PixelExplanation, Progress, RayCounts, RayExplanation, RayKind, Region, RenderError,
-    RenderOptions, SampleExplanation, Source, compile, explain, heatmap, render, with_threads,
+    RenderOptions, SampleExplanation, SimdLevel, Source, compile, compile_for, explain, heatmap, render, with_threads,
 };
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};
