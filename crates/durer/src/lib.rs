@@ -18,8 +18,9 @@
 mod files;
 
 pub use durer_formats::{
-    AssetError, Assets, Diagnostic, Diagnostics, FolderAssets, Limits, LoadOptions, Loaded, NoAssets, Related,
-    Severity, json_schema, load_bytes, load_file, load_str, reference_markdown, to_yaml,
+    AssetError, Assets, Diagnostic, Diagnostics, FolderAssets, Limits, LoadOptions, Loaded, MemoryAssets, NoAssets,
+    Related, Severity, Sources, json_schema, load_bytes, load_file, load_str, reference_markdown, scene_fingerprint,
+    to_yaml,
 };
 pub use durer_imaging as imaging;
 pub use durer_math as math;
