@@ -31,4 +31,4 @@ pub use durer_render::{
 };
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};
-pub use files::{PictureFile, ReadError, WriteError, read_picture};
+pub use files::{PictureFile, ReadError, WriteError, picture_facts, read_picture};

@@ -7,9 +7,11 @@ use crate::exit::{Exit, Failure};
 use crate::load::SceneArgs;
 use crate::overrides::Overrides;
 use crate::progress::{Bar, Show};
+use crate::provenance;
 use crate::target::{self, FileOptions};
 use clap::{Args, ValueEnum};
 use durer::imaging::EncodeOptions;
+use durer::math::Fingerprint;
 use durer::{CheckedScene, Film, PictureFile, Region, RenderError, RenderOptions, SimdLevel};
 use interrupt::Interrupt;
 use report::{Report, Seconds};
@@ -81,8 +83,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let path = arguments.output_path();
     let format = target::format_of(&path)?;
     let mut options = arguments.file.encode_options(format)?;
-    let (scene, load) = timed(|| arguments.overrides.apply(arguments.scene.load(arguments.show())?));
-    let scene = scene?;
+    let (loaded, load) = timed(|| arguments.load());
+    let (scene, fingerprint) = loaded?;
+    options.metadata = provenance::of_render(fingerprint, scene.scene(), arguments.crop);
     options.transfer = scene.scene().picture.transfer;
     arguments.check_crop(&scene)?;
     let interrupt = Interrupt::new();
@@ -131,6 +134,13 @@ impl Arguments {
             Some(path) => path.clone(),
             None => PathBuf::from(self.scene.name()).with_extension("png"),
         }
+    }
+
+    /// The scene with the settings of the command line, and the fingerprint of what was loaded.
+    fn load(&self) -> Result<(CheckedScene, Fingerprint), Failure> {
+        let (scene, sources) = self.scene.load_with_sources(self.show())?;
+        let fingerprint = durer::scene_fingerprint(scene.scene(), &sources);
+        Ok((self.overrides.apply(scene)?, fingerprint))
     }
 
     /// Finds out whether the part lies within the picture, before there is any file.
