@@ -1,10 +1,11 @@
-//! The project's own chores: `cargo xtask bless`, `gallery`, `bench`. They run the built `durer`; they are not part of it.
+//! The project's own chores: `cargo xtask bless`, `gallery`, `reproduce`, `bench`. They use durer; they are not part of it.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "programs may print")]
 
 mod bench;
 mod bless;
 mod gallery;
+mod reproduce;
 mod shell;
 
 use std::process::ExitCode;
@@ -13,7 +14,14 @@ const USAGE: &str = "\
 cargo xtask CHORE
 
   bless [--check]           rewrite docs/scene.schema.json, docs/reference.md and docs/cli.md from the program
-  gallery [NAME ...]        render the pictures of docs/gallery (or only these) and write its page";
+  gallery [NAME ...]        render the pictures of docs/gallery (or only these) and write its page
+  reproduce [OPTION ...]    render all scenes in every way that must not matter, and compare with scenes/checksums.toml
+    --bless                 write scenes/checksums.toml anew
+    --threads N             only with so many threads
+    --simd LEVEL            only with this instruction set
+    --target wasm|aarch64   in WebAssembly under Node, or for AArch64 under QEMU
+    --where-possible        where a tool is missing, say so and go on
+    --list                  print the fingerprints and compare nothing";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -32,6 +40,7 @@ fn run(words: &[&str]) -> Result<(), String> {
         ["bless"] => bless::run(),
         ["bless", "--check"] => bless::check(),
         ["gallery", names @ ..] => gallery::run(names),
+        ["reproduce", options @ ..] => reproduce::run(options),
         [] | ["help" | "--help" | "-h"] => {
             println!("{USAGE}\n{}", bench::USAGE);
             Ok(())

@@ -4,7 +4,7 @@ use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::{Phase, Show};
 use clap::Args;
-use durer::{CheckedScene, CompiledScene, Diagnostics, LoadOptions, Loaded};
+use durer::{CheckedScene, CompiledScene, Diagnostics, LoadOptions, Loaded, SimdLevel, Sources};
 use std::path::{Path, PathBuf};
 
 /// Which scene, and what it may read.
@@ -27,12 +27,17 @@ impl SceneArgs {
 
     /// Loads the scene. Prints its warnings, or what is wrong with it.
     pub(crate) fn load(&self, show: Show) -> Result<CheckedScene, Failure> {
+        self.load_with_sources(show).map(|(scene, _)| scene)
+    }
+
+    /// Loads the scene, and tells what files it named. Prints its warnings, or what is wrong with it.
+    pub(crate) fn load_with_sources(&self, show: Show) -> Result<(CheckedScene, Sources), Failure> {
         match self.try_load(show)? {
             Ok(loaded) => {
                 if !loaded.warnings.is_empty() {
                     tell(&loaded.warnings);
                 }
-                Ok(loaded.scene)
+                Ok((loaded.scene, loaded.sources))
             }
             Err(diagnostics) => {
                 tell(&diagnostics);
@@ -53,8 +58,13 @@ impl SceneArgs {
 
     /// Makes a loaded scene ready for rays.
     pub(crate) fn compile(&self, scene: &CheckedScene, show: Show) -> CompiledScene {
+        self.compile_for(scene, SimdLevel::best(), show)
+    }
+
+    /// Makes a loaded scene ready for rays, with this instruction set.
+    pub(crate) fn compile_for(&self, scene: &CheckedScene, simd: SimdLevel, show: Show) -> CompiledScene {
         let _phase = Phase::begin(format!("building {}", self.name()), show);
-        durer::compile(scene)
+        durer::compile_for(scene, simd)
     }
 
     fn options(&self) -> LoadOptions {

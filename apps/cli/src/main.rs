@@ -12,6 +12,7 @@ mod numbers;
 mod output;
 mod overrides;
 mod progress;
+mod provenance;
 mod target;
 
 use clap::Parser;

@@ -1,6 +1,7 @@
 //! The picture file that is to be written: its format, by the extension of its name, and the options of that format.
 
 use crate::exit::Failure;
+use crate::provenance;
 use clap::{Args, ValueEnum};
 use durer::imaging::{EncodeOptions, ExrSamples, FileFormat, PngDepth};
 use std::path::Path;
@@ -41,11 +42,9 @@ pub(crate) fn format_of(path: &Path) -> Result<FileFormat, Failure> {
     FileFormat::from_path(path).map_err(|error| Failure::usage(format!("{}: {error}", path.display())))
 }
 
-/// The usual options of a format, and what every picture of ours says about its origin: neither time nor place, for
-/// the same scene gives the same bytes everywhere.
+/// The usual options of a format, and the name of the program.
 pub(crate) fn usual(format: FileFormat) -> EncodeOptions {
-    let software = concat!("durer ", env!("CARGO_PKG_VERSION"));
-    EncodeOptions { metadata: vec![("Software".to_owned(), software.to_owned())], ..EncodeOptions::new(format) }
+    EncodeOptions { metadata: vec![provenance::software()], ..EncodeOptions::new(format) }
 }
 
 impl FileOptions {

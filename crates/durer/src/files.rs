@@ -1,6 +1,8 @@
 //! Picture files: written whole or not at all.
 
-use durer_imaging::{Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, Image, decode, encode};
+use durer_imaging::{
+    Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, FileFacts, Image, about, decode, encode,
+};
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -110,6 +112,12 @@ fn missing_folder(path: &Path) -> Option<&Path> {
 pub fn read_picture(path: &Path, limits: &DecodeLimits) -> Result<Bitmap, ReadError> {
     let bytes = fs::read(path).map_err(|error| ReadError::Io(path.to_owned(), error))?;
     decode(&bytes, limits).map_err(|error| ReadError::Decode(path.to_owned(), error))
+}
+
+/// What the header of a picture file says.
+pub fn picture_facts(path: &Path) -> Result<FileFacts, ReadError> {
+    let bytes = fs::read(path).map_err(|error| ReadError::Io(path.to_owned(), error))?;
+    about(&bytes).map_err(|error| ReadError::Decode(path.to_owned(), error))
 }
 
 impl std::fmt::Display for WriteError {

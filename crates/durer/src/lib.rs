@@ -18,17 +18,18 @@
 mod files;
 
 pub use durer_formats::{
-    AssetError, Assets, Diagnostic, Diagnostics, FolderAssets, Limits, LoadOptions, Loaded, NoAssets, Related,
-    Severity, json_schema, load_bytes, load_file, load_str, reference_markdown, to_yaml,
+    AssetError, Assets, Diagnostic, Diagnostics, FolderAssets, Limits, LoadOptions, Loaded, MemoryAssets, NoAssets,
+    Related, Severity, Sources, json_schema, load_bytes, load_file, load_str, reference_markdown, scene_fingerprint,
+    to_yaml,
 };
 pub use durer_imaging as imaging;
 pub use durer_math as math;
 pub use durer_render::{
     BadSample, Bounds, CompiledScene, Contribution, Element, Film, GeometryMemory, HeatMap, HitExplanation,
     HoleExplanation, LightExplanation, NotTraced, PixelExplanation, Progress, RayCounts, RayExplanation, RayKind,
-    Region, RenderError, RenderOptions, SampleExplanation, Source, compile, explain, heatmap, render, render_on,
-    with_threads,
+    Region, RenderError, RenderOptions, SampleExplanation, SimdLevel, Source, compile, compile_for, explain, heatmap,
+    render, render_on, with_threads,
 };
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};
-pub use files::{PictureFile, ReadError, WriteError, read_picture};
+pub use files::{PictureFile, ReadError, WriteError, picture_facts, read_picture};

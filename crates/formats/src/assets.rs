@@ -3,6 +3,8 @@
 //! Files are read whole. To map them into memory instead would take `unsafe`, and a file that another program cuts short
 //! while it is mapped would crash us.
 
+pub(crate) mod memory;
+
 use std::fmt;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};

@@ -9,14 +9,18 @@ mod data;
 mod diagnostics;
 mod models;
 mod native;
+mod sources;
 
+pub use assets::memory::MemoryAssets;
 pub use assets::{AssetError, Assets, FolderAssets, NoAssets};
 pub use diagnostics::{Diagnostic, Diagnostics, Related, Severity};
 pub use native::{json_schema, reference_markdown, to_yaml};
+pub use sources::{Sources, scene_fingerprint};
 
 use diagnostics::Complaint;
 use durer_scene::CheckedScene;
 use native::tree::Span;
+use sources::Remembering;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -76,6 +80,8 @@ pub struct Loaded {
     pub scene: CheckedScene,
     /// What is worth a look in spite of that.
     pub warnings: Diagnostics,
+    /// The files that it named.
+    pub sources: Sources,
 }
 
 /// Reads and checks the scene file at `path`; files that it names are looked for in its folder. A model file, as its
@@ -142,10 +148,11 @@ pub fn load_str(text: &str, name: &str, assets: &dyn Assets, limits: &Limits) ->
         let message = format!("this file is larger than {} bytes", limits.max_bytes);
         return Err(Diagnostics::new(vec![Complaint::error(Span::default(), message)], name, "", 1));
     }
-    let (scene, complaints) = native::load(text, assets, limits);
+    let assets = Remembering::new(assets);
+    let (scene, complaints) = native::load(text, &assets, limits);
     let diagnostics = Diagnostics::new(complaints, name, text, limits.max_diagnostics);
     match scene {
-        Some(scene) => Ok(Loaded { scene, warnings: diagnostics }),
+        Some(scene) => Ok(Loaded { scene, warnings: diagnostics, sources: assets.into_sources() }),
         None => Err(diagnostics),
     }
 }

@@ -15,7 +15,7 @@ mod vantage;
 mod world;
 
 pub use bounds::Bounds;
-pub use bvh::build::BuildFor;
+pub use bvh::build::{BuildFor, Plan};
 pub use bvh::traverse::Work;
 pub use packet::{LANES, Packet, PacketHits};
 pub use primitive::{Primitive, Surface};
@@ -23,6 +23,7 @@ pub use ray::{Crossing, Ray};
 pub use shapes::mesh::{Mesh, MeshSource};
 pub use shapes::particles::Particles;
 pub use shapes::solid::{Operand, Operation};
+pub use simd::level::SimdLevel;
 pub use slender::Slender;
 pub use vantage::Vantage;
 pub use world::{Hit, World};

@@ -37,7 +37,10 @@ impl Slender {
         match form {
             Form::Ball => Slender { ends: ends(long - long.normalize_or_zero() * thick), radius: thick, core: thin },
             Form::Rod => Slender { ends: ends(long), radius: thick, core: thin },
-            Form::Any => Slender { ends: ends(long), radius: thin.hypot(thick), core: thin.hypot(thick) * 0.5 },
+            Form::Any => {
+                let radius = (thin * thin + thick * thick).sqrt();
+                Slender { ends: ends(long), radius, core: radius * 0.5 }
+            }
         }
     }
 
@@ -98,7 +101,7 @@ mod tests {
     #[test]
     fn each_particle_is_one_and_a_plane_is_none() {
         let ball = |index: usize| (DVec3::X * index as f64, 0.5);
-        let particles = Arc::new(Particles::spheres(3, BuildFor::Preview, ball));
+        let particles = Arc::new(Particles::spheres(3, BuildFor::Preview.into(), ball));
         let map = DAffine3::from_scale(DVec3::new(1.0, 2.0, 4.0));
         let mut all = slender(&Primitive::particles(particles, &map));
         all.sort_by(|a, b| a.ends[0].x.total_cmp(&b.ends[0].x));

@@ -39,12 +39,8 @@ pub struct Hit {
 }
 
 impl World {
-    /// Builds the search structures, for the best instruction set of this machine.
-    pub fn build(primitives: Vec<Primitive>, purpose: BuildFor) -> World {
-        World::build_as(primitives, Plan::new(purpose))
-    }
-
-    fn build_as(primitives: Vec<Primitive>, plan: Plan) -> World {
+    /// Builds the search structures.
+    pub fn build(primitives: Vec<Primitive>, plan: Plan) -> World {
         let ids = 0..primitives.len() as u32;
         let is_plane = |&id: &u32| primitives[id as usize].as_plane().is_some();
         let (plane_ids, bounded_ids): (Vec<u32>, Vec<u32>) = ids.partition(is_plane);
@@ -60,7 +56,7 @@ impl World {
             }
         }
         let bounds = boxes.iter().copied().fold(Bounds::EMPTY, Bounds::union);
-        World { bvh, planes, bounded_ids, bounds, level: plan.level, primitives }
+        World { bvh, planes, bounded_ids, bounds, level: plan.simd.level(), primitives }
     }
 
     /// The primitives, in the order they were given.
@@ -482,7 +478,5 @@ impl Best {
     }
 }
 
-#[cfg(test)]
-pub(crate) use tests::levels;
 #[cfg(test)]
 mod tests;

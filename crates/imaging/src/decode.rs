@@ -129,7 +129,7 @@ pub fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, DecodeError
 }
 
 /// The format by the first bytes.
-fn recognise(bytes: &[u8]) -> Result<FileFormat, DecodeError> {
+pub(crate) fn recognise(bytes: &[u8]) -> Result<FileFormat, DecodeError> {
     const SIGNATURES: [(&[u8], FileFormat); 6] = [
         (b"\x89PNG\r\n\x1a\n", FileFormat::Png),
         (b"\xff\xd8\xff", FileFormat::Jpeg),

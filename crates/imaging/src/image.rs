@@ -1,6 +1,6 @@
 //! A picture in linear light.
 
-use durer_math::Rgb;
+use durer_math::{Fingerprint, Rgb};
 
 /// A picture in linear light: rows from the top, pixels from the left.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,6 +51,14 @@ impl Image {
     /// The rows from the top, each of `width` colours; none if the picture is empty.
     pub fn rows(&self) -> impl DoubleEndedIterator<Item = &[Rgb]> + ExactSizeIterator {
         self.pixels.chunks_exact(self.width.max(1) as usize)
+    }
+
+    /// That of the picture to the last bit: of width, height and all numbers, each in four bytes, the lowest first.
+    pub fn fingerprint(&self) -> Fingerprint {
+        let mut bytes = Vec::with_capacity(8 + 12 * self.pixels.len());
+        bytes.extend([self.width, self.height].into_iter().flat_map(u32::to_le_bytes));
+        bytes.extend(self.pixels.iter().flat_map(|pixel| pixel.to_array()).flat_map(f32::to_le_bytes));
+        Fingerprint::of(&bytes)
     }
 
     /// True if `pixels` has the length that width and height promise.

@@ -3,6 +3,7 @@
 //! An [`Image`] is linear light for people and programs to look at; a [`Bitmap`] is what a file held, as it held it,
 //! for textures. [`decode`] and [`encode`] work on bytes in memory; opening and writing files is the caller's job.
 
+mod about;
 mod bitmap;
 mod color;
 mod compare;
@@ -14,6 +15,7 @@ mod flip;
 mod image;
 mod quantize;
 
+pub use about::{FileFacts, about};
 pub use bitmap::{Alpha, Bitmap, Texels};
 pub use color::{Transfer, linear_from_srgb, srgb_from_linear};
 pub use compare::{CompareError, Difference, compare};

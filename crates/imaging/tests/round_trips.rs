@@ -1,7 +1,8 @@
 //! What is written is read again: exactly where the format can, within its precision where it cannot.
 
 use durer_imaging::{
-    Bitmap, DecodeLimits, EncodeOptions, ExrSamples, FileFormat, Image, PngDepth, Texels, Transfer, decode, encode,
+    Bitmap, DecodeLimits, EncodeOptions, ExrSamples, FileFormat, Image, PngDepth, Texels, Transfer, about, decode,
+    encode,
 };
 use durer_math::Rgb;
 
@@ -140,6 +141,39 @@ fn metadata_is_in_png_and_exr() {
     let exr = encode(&gradient(), &EncodeOptions { metadata, ..EncodeOptions::new(FileFormat::Exr) }).unwrap();
     let expected = "Title: room\nAuthor: Dürer\n".as_bytes();
     assert!(exr.windows(expected.len()).any(|window| window == expected));
+}
+
+#[test]
+fn a_file_tells_its_size_its_samples_and_its_metadata() {
+    let metadata = vec![("Title".to_owned(), "room: a".to_owned()), ("Author".to_owned(), "Dürer".to_owned())];
+    let told = |format, change: fn(&mut EncodeOptions)| {
+        let mut options = EncodeOptions { metadata: metadata.clone(), ..EncodeOptions::new(format) };
+        change(&mut options);
+        let facts = about(&encode(&gradient(), &options).unwrap()).unwrap();
+        assert_eq!((facts.format, facts.width, facts.height), (format, gradient().width, gradient().height));
+        (facts.samples, facts.metadata)
+    };
+    let with = |samples: &str| (samples.to_owned(), metadata.clone());
+    assert_eq!(told(FileFormat::Png, |_| {}), with("RGB, 8 bits each"));
+    assert_eq!(told(FileFormat::Png, |o| o.png_depth = PngDepth::Sixteen), with("RGB, 16 bits each"));
+    assert_eq!(told(FileFormat::Exr, |_| {}), with("B half, G half, R half"));
+    assert_eq!(told(FileFormat::Exr, |o| o.exr_samples = ExrSamples::Float), with("B float, G float, R float"));
+    let without = |samples: &str| (samples.to_owned(), Vec::new());
+    assert_eq!(told(FileFormat::Jpeg, |_| {}), without("RGB, 8 bits each"));
+    assert_eq!(told(FileFormat::Hdr, |_| {}), without("RGB, 8 bits each with one exponent"));
+    assert_eq!(told(FileFormat::Pfm, |_| {}), without("RGB, 32-bit floating point each"));
+}
+
+#[test]
+fn headers_cut_short_are_errors_and_no_panics() {
+    for format in FileFormat::ALL {
+        let file = encode(&gradient(), &EncodeOptions::new(format)).unwrap();
+        for end in 0..file.len().min(400) {
+            if let Ok(facts) = about(&file[..end]) {
+                assert_eq!((facts.width, facts.height), (gradient().width, gradient().height), "{format:?} {end}");
+            }
+        }
+    }
 }
 
 #[test]

@@ -14,7 +14,7 @@ use crate::lights::Light;
 use crate::materials::Material;
 use crate::textures::Textures;
 use contents::Contents;
-use durer_geometry::{Bounds, BuildFor, Hit, Primitive, Vantage, World};
+use durer_geometry::{Bounds, BuildFor, Hit, Plan, Primitive, SimdLevel, Vantage, World};
 use durer_math::Rgb;
 use durer_scene::{Background, CheckedScene, Picture, RenderSettings, Scene, Trees};
 use imports::Brought;
@@ -84,16 +84,21 @@ impl GeometryMemory {
 /// Makes a scene ready for rays: places every shape, builds the search structures. Uses the threads of the rayon pool that
 /// it is called in (see [`with_threads`](crate::with_threads)); what it makes does not depend on their number.
 pub fn compile(scene: &CheckedScene) -> CompiledScene {
+    compile_for(scene, SimdLevel::best())
+}
+
+/// As [`compile`], but building and rendering will use this instruction set. It changes no pixel.
+pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
     let scene = scene.scene();
-    let (materials, purpose) = (materials(scene), purpose(scene.render.trees));
-    let contents = Contents::of(&scene.objects, purpose);
+    let (materials, plan) = (materials(scene), Plan { purpose: purpose(scene.render.trees), simd });
+    let contents = Contents::of(&scene.objects, plan);
     let tree = Tree::new(&scene.objects, &contents, &materials);
     let (mut primitives, mut objects): (Vec<Primitive>, Vec<PlacedObject>) = (Vec::new(), Vec::new());
     (0..tree.len()).into_par_iter().map(|index| tree.place(index)).unzip_into_vecs(&mut primitives, &mut objects);
     let mut shared = contents.memory();
     tree.add_memory(&mut shared);
     let details = tree.details;
-    let world = World::build(primitives, purpose);
+    let world = World::build(primitives, plan);
     let brought = Brought::by(&scene.objects);
     let lights: Vec<Light> = scene.lights.iter().chain(&brought.lights).map(Light::compile).collect();
     let Picture { width, height, .. } = scene.picture;

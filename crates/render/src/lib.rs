@@ -25,8 +25,8 @@ mod shading;
 mod textures;
 mod visibility;
 
-pub use compile::{CompiledScene, GeometryMemory, compile};
-pub use durer_geometry::Bounds;
+pub use compile::{CompiledScene, GeometryMemory, compile, compile_for};
+pub use durer_geometry::{Bounds, SimdLevel};
 pub use explain::{
     Contribution, Element, HitExplanation, HoleExplanation, LightExplanation, PixelExplanation, RayExplanation,
     SampleExplanation, explain,

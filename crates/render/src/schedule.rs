@@ -71,12 +71,16 @@ impl std::fmt::Display for RenderError {
 impl std::error::Error for RenderError {}
 
 /// Runs `work` in a pool of so many threads; `None` takes one for each core. All that it calls here uses no others:
-/// [`compile`](crate::compile), and [`render`] unless its options ask for a number of their own.
+/// [`compile`](crate::compile), and [`render`] unless its options ask for a number of their own. In WebAssembly, which has
+/// no threads, the caller does the work.
 ///
 /// # Errors
 ///
 /// The system refused to start the threads.
 pub fn with_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T, RenderError> {
+    if cfg!(target_family = "wasm") {
+        return Ok(work());
+    }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
     Ok(pool.map_err(|error| RenderError::Threads(error.to_string()))?.install(work))
 }

@@ -20,6 +20,16 @@ impl Default for Picture {
     }
 }
 
+impl Picture {
+    /// The same picture with a longer side of so many pixels, at least 1; the other is rounded.
+    #[must_use]
+    pub fn with_longer_side(self, pixels: u32) -> Picture {
+        let longer = u64::from(self.width.max(self.height).max(1));
+        let scaled = |side: u32| ((u64::from(side) * u64::from(pixels) + longer / 2) / longer).max(1) as u32;
+        Picture { width: scaled(self.width), height: scaled(self.height), ..self }
+    }
+}
+
 /// How the picture is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RenderSettings {
@@ -183,4 +193,22 @@ pub enum Fog {
         /// From here on there is only fog; greater than `start`.
         end: f64,
     },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_longer_side_is_as_asked() {
+        let sized = |width, height, pixels| {
+            let picture = Picture { width, height, ..Picture::default() }.with_longer_side(pixels);
+            (picture.width, picture.height)
+        };
+        assert_eq!(sized(640, 480, 96), (96, 72));
+        assert_eq!(sized(480, 640, 96), (72, 96));
+        assert_eq!(sized(3, 2, 96), (96, 64));
+        assert_eq!(sized(65_535, 1, 96), (96, 1));
+        assert_eq!(sized(65_535, 65_535, u32::MAX), (u32::MAX, u32::MAX));
+    }
 }

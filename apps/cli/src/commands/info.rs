@@ -1,12 +1,14 @@
-//! `durer info`: what is in a scene, counted.
+//! `durer info`: what is in a scene, counted; or what a picture file says of itself.
+
+mod picture;
 
 use crate::exit::{Exit, Failure};
 use crate::load::SceneArgs;
-use crate::numbers::{bytes, count, short, thousands, vector};
+use crate::numbers::{bytes, count, thousands, vector};
 use crate::output;
 use crate::progress::Show;
 use clap::Args;
-use durer::imaging::Transfer;
+use durer::imaging::{FileFormat, Transfer};
 use durer::math::DVec3;
 use durer::scene::{Antialias, LightKind, Object, ObjectKind, Picture};
 use durer::{Bounds, CompiledScene, GeometryMemory, Scene};
@@ -15,9 +17,10 @@ use serde_json::{Value, json};
 const EXAMPLES: &str = "\
 Examples:
   durer info room.yaml
-  durer info room.yaml --json";
+  durer info room.yaml --json
+  durer info room.png                 size, samples, and which scene it shows";
 
-/// Say what is in a scene: shapes, materials, images, lights, and how large it is
+/// Say what is in a scene: shapes, materials, images, lights, and how large it is; or in a picture
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
@@ -29,8 +32,11 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Counts what is in the scene.
+/// Counts what is in the scene, or reads what the picture says.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    if FileFormat::from_path(&arguments.scene.path).is_ok() {
+        return picture::run(&arguments.scene.path, arguments.json);
+    }
     let checked = arguments.scene.load(Show::Progress)?;
     let compiled = arguments.scene.compile(&checked, Show::Progress);
     let facts = Facts::of(checked.scene(), &compiled);
@@ -254,16 +260,17 @@ fn picture_text(scene: &Scene) -> String {
     format!("{width} × {height} pixels, {transfer}, depth {}, antialias {antialias}", scene.render.max_depth)
 }
 
-fn transfer_word(transfer: Transfer) -> &'static str {
+/// The transfer curve, as scenes call it.
+pub(crate) fn transfer_word(transfer: Transfer) -> &'static str {
     match transfer {
         Transfer::Srgb => "srgb",
         Transfer::Linear => "linear",
     }
 }
 
-/// As `--antialias` takes it.
-fn antialias_text(antialias: Antialias) -> String {
-    let with_two = |word: &str, threshold: f32, depth: u32| format!("{word}:{},{depth}", short(f64::from(threshold)));
+/// As `--antialias` takes it, to the last digit.
+pub(crate) fn antialias_text(antialias: Antialias) -> String {
+    let with_two = |word: &str, threshold: f32, depth: u32| format!("{word}:{threshold},{depth}");
     match antialias {
         Antialias::None => "none".to_owned(),
         Antialias::Grid { n } => format!("grid:{n}"),

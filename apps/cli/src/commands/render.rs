@@ -7,10 +7,12 @@ use crate::exit::{Exit, Failure};
 use crate::load::SceneArgs;
 use crate::overrides::Overrides;
 use crate::progress::{Bar, Show};
+use crate::provenance;
 use crate::target::{self, FileOptions};
 use clap::{Args, ValueEnum};
 use durer::imaging::EncodeOptions;
-use durer::{CheckedScene, Film, PictureFile, Region, RenderError, RenderOptions};
+use durer::math::Fingerprint;
+use durer::{CheckedScene, Film, PictureFile, Region, RenderError, RenderOptions, SimdLevel};
 use interrupt::Interrupt;
 use report::{Report, Seconds};
 use std::path::PathBuf;
@@ -49,6 +51,11 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     threads: Option<u16>,
 
+    /// Instruction set for building and searching, such as sse2, avx2 or neon; it changes no pixel [default: the best
+    /// that the machine has]
+    #[arg(long, value_name = "LEVEL", value_parser = simd)]
+    simd: Option<SimdLevel>,
+
     /// Print statistics to standard output, in place of the line at the end
     #[arg(long, value_name = "FORMAT")]
     stats: Option<StatsFormat>,
@@ -76,8 +83,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let path = arguments.output_path();
     let format = target::format_of(&path)?;
     let mut options = arguments.file.encode_options(format)?;
-    let (scene, load) = timed(|| arguments.overrides.apply(arguments.scene.load(arguments.show())?));
-    let scene = scene?;
+    let (loaded, load) = timed(|| arguments.load());
+    let (scene, fingerprint) = loaded?;
+    options.metadata = provenance::of_render(fingerprint, scene.scene(), arguments.crop);
     options.transfer = scene.scene().picture.transfer;
     arguments.check_crop(&scene)?;
     let interrupt = Interrupt::new();
@@ -128,6 +136,13 @@ impl Arguments {
         }
     }
 
+    /// The scene with the settings of the command line, and the fingerprint of what was loaded.
+    fn load(&self) -> Result<(CheckedScene, Fingerprint), Failure> {
+        let (scene, sources) = self.scene.load_with_sources(self.show())?;
+        let fingerprint = durer::scene_fingerprint(scene.scene(), &sources);
+        Ok((self.overrides.apply(scene)?, fingerprint))
+    }
+
     /// Finds out whether the part lies within the picture, before there is any file.
     fn check_crop(&self, scene: &CheckedScene) -> Result<(), Failure> {
         let picture = scene.scene().picture;
@@ -142,7 +157,7 @@ impl Arguments {
     /// The film, and the seconds for building and for tracing.
     fn trace(&self, scene: &CheckedScene, interrupt: &Interrupt) -> Result<(Film, f64, f64), Failure> {
         durer::with_threads(self.threads.map(usize::from), || {
-            let (compiled, build) = timed(|| self.scene.compile(scene, self.show()));
+            let (compiled, build) = timed(|| self.scene.compile_for(scene, self.simd.unwrap_or_default(), self.show()));
             let bar = Bar::new(interrupt.stop_flag(), self.show());
             let options = RenderOptions { threads: None, region: self.crop };
             let (film, render) = timed(|| durer::render(&compiled, &options, &bar));
@@ -166,6 +181,11 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
 fn within(region: Region, width: u32, height: u32) -> bool {
     let ends = |start: u32, length: u32| u64::from(start) + u64::from(length);
     ends(region.x, region.width) <= u64::from(width) && ends(region.y, region.height) <= u64::from(height)
+}
+
+fn simd(name: &str) -> Result<SimdLevel, String> {
+    let names = || SimdLevel::available().iter().map(|level| level.name()).collect::<Vec<_>>().join(", ");
+    SimdLevel::named(name).ok_or_else(|| format!("this machine has {}", names()))
 }
 
 fn crop(text: &str) -> Result<Region, String> {

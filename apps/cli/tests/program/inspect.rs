@@ -84,3 +84,27 @@ fn images_must_be_within_reach() {
     let text = workshop.fine("info scenes/a.yaml --allow-path pictures").stdout;
     assert!(text.contains("../pictures/wall.png: 24 × 16 pixels"), "{text}");
 }
+
+#[test]
+fn info_tells_what_a_picture_says_of_itself() {
+    let workshop = Workshop::new();
+    let words = "render room.yaml --crop 4,2,10,8 --max-depth 3 --antialias grid:2";
+    for (name, samples) in [("a.png", "RGB, 8 bits each"), ("a.exr", "B half, G half, R half")] {
+        workshop.fine(&format!("{words} -o {name}"));
+        let text = workshop.fine(&format!("info {name}")).stdout;
+        let expected = ["10 × 8 pixels", samples, "durer 0.1.0", "24x16", "4,2,10,8", "grid:2", "0.001", "srgb"];
+        for part in expected {
+            assert!(text.contains(part), "{part} is not in {text}");
+        }
+        let json = workshop.fine(&format!("info {name} --json")).json();
+        assert_eq!((&json["width"], &json["height"]), (&10.into(), &8.into()));
+        assert_eq!(json["metadata"]["Max depth"], "3");
+        assert_eq!(json["metadata"]["Scene"].as_str().map(str::len), Some(32));
+    }
+    workshop.fine(&format!("{words} -o a.jpg"));
+    let text = workshop.fine("info a.jpg").stdout;
+    assert_eq!(text, "a.jpg\n  kind    JPEG\n  size    10 × 8 pixels\n  samples RGB, 8 bits each\n");
+    workshop.put("b.png", "objects: [sphere]");
+    workshop.fails("info b.png", 4, "not a PNG");
+    workshop.fails("info c.png", 4, "c.png");
+}

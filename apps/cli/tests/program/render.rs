@@ -52,6 +52,44 @@ fn every_format_is_written_and_read() {
     assert!(plain.windows(11).any(|bytes| bytes == b"durer 0.1.0"));
 }
 
+/// The same whatever says it: a scene's own layout, name and folder, threads and instruction sets.
+#[test]
+fn the_same_scene_with_the_same_settings_gives_the_same_file() {
+    let workshop = Workshop::new();
+    let spaced = crate::workshop::ROOM.replace("[0, 1, 6]", "[0.0,   1, 6.0]");
+    workshop.put("hall.yaml", &format!("# another name\n{spaced}"));
+    for name in ["a.png", "a.exr"] {
+        workshop.fine(&format!("render room.yaml -o {name} --threads 1"));
+        let first = workshop.bytes(name);
+        workshop.fine(&format!("render hall.yaml -o {name} --threads 3"));
+        assert_eq!(workshop.bytes(name), first);
+        workshop.fine(&format!("render room.yaml -o {name} --width 24 --antialias none"));
+        assert_eq!(workshop.bytes(name), first, "settings that say the same");
+        workshop.put("hall.yaml", &spaced.replace("radius: 1,", "radius: 1.25,"));
+        workshop.fine(&format!("render hall.yaml -o {name}"));
+        assert_ne!(workshop.fine(&format!("info {name} --json")).json()["metadata"]["Scene"], scene_of(&workshop));
+        workshop.put("hall.yaml", &spaced);
+    }
+}
+
+/// What a picture of the room calls its scene.
+fn scene_of(workshop: &Workshop) -> serde_json::Value {
+    workshop.fine("render room.yaml -o scene.png");
+    workshop.fine("info scene.png --json").json()["metadata"]["Scene"].clone()
+}
+
+#[test]
+fn every_instruction_set_of_the_machine_gives_the_same_file() {
+    let workshop = Workshop::new();
+    let told = workshop.fails("render room.yaml --simd mmx", 2, "this machine has ").stderr;
+    let names = told.lines().find_map(|line| line.split_once("this machine has ")).unwrap().1;
+    workshop.fine("render room.yaml -o a.png");
+    for name in names.split(", ") {
+        workshop.fine(&format!("render room.yaml -o b.png --simd {name}"));
+        assert_eq!(workshop.bytes("b.png"), workshop.bytes("a.png"), "{name}");
+    }
+}
+
 #[test]
 fn wrong_outputs_are_found_before_rendering() {
     let workshop = Workshop::new();

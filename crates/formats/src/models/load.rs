@@ -3,6 +3,7 @@
 use super::{FilePlace, ModelError, read, stage::stage};
 use crate::diagnostics::Complaint;
 use crate::native::tree::Span;
+use crate::sources::Remembering;
 use crate::{Assets, Diagnostics, Limits, Loaded};
 
 /// Reads a model, which messages call `name`, and makes a scene that shows it; `assets` are the files beside it.
@@ -13,12 +14,14 @@ use crate::{Assets, Diagnostics, Limits, Loaded};
 pub(crate) fn load(bytes: &[u8], name: &str, assets: &dyn Assets, limits: &Limits) -> Result<Loaded, Diagnostics> {
     // As the model's own folder sees it.
     let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
-    let model = read(file, bytes, assets, limits).map_err(|error| diagnostics_of(error, bytes, name, limits))?;
+    let assets = Remembering::new(assets);
+    assets.remember(file, bytes);
+    let model = read(file, bytes, &assets, limits).map_err(|error| diagnostics_of(error, bytes, name, limits))?;
     let warnings =
         model.warnings.iter().map(|warning| Complaint::warning(Span::default(), format!("in {file}: {warning}")));
     let warnings = Diagnostics::new(warnings.collect(), name, "", limits.max_diagnostics);
     match stage(model.scene, file).check() {
-        Ok(scene) => Ok(Loaded { scene, warnings }),
+        Ok(scene) => Ok(Loaded { scene, warnings, sources: assets.into_sources() }),
         Err(problems) => {
             let complaint = |problem: durer_scene::Problem| {
                 let message = format!("in {file}, {}: {}", problem.place, problem.message);

@@ -144,11 +144,13 @@ const FREE: u32 = u32::MAX;
 const LONGEST_SEARCH: usize = 256;
 /// A power of two.
 const RECENT: usize = 4096;
+/// So many slots are enough for all numbers of 32 bits, if addresses have more.
+const MOST_SLOTS: usize = 1 << if usize::BITS > 32 { 32 } else { 31 };
 
 impl<K: Key> Distinct<K> {
     /// None yet, and room for this many.
     pub(crate) fn with_capacity(count: usize) -> Distinct<K> {
-        let slots = count.saturating_mul(2).next_power_of_two().clamp(64, 1 << 32);
+        let slots = (count.min(MOST_SLOTS / 2) * 2).next_power_of_two().max(64);
         Distinct { keys: Vec::with_capacity(count), slots: vec![FREE; slots], recent: vec![FREE; RECENT] }
     }
 

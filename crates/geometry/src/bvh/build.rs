@@ -8,8 +8,8 @@ use super::merge::merge;
 use super::{Bvh, Child, MAX_DEPTH, MAX_LEAF, Node};
 use crate::simd::bins::{Bins, Centers, Cut, best_cut, fill, measure, partition};
 use crate::simd::boxes::{Box32, Boxes};
+use crate::simd::level::SimdLevel;
 use arrayvec::ArrayVec;
-use fearless_simd::Level;
 use rayon::prelude::*;
 
 /// Something with a box, and its number, which is kept in the bits of the box's first spare number.
@@ -55,24 +55,26 @@ pub enum BuildFor {
     ManyRays,
 }
 
-/// How trees are built.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Plan {
-    pub(crate) level: Level,
-    pub(crate) purpose: BuildFor,
+/// How trees are built and searched. It changes how long that takes, and never what a ray finds.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Plan {
+    /// What they are built for.
+    pub purpose: BuildFor,
+    /// The instruction set that building and searching use.
+    pub simd: SimdLevel,
 }
 
-impl Plan {
-    /// With the best instruction set of this machine.
-    pub(crate) fn new(purpose: BuildFor) -> Plan {
-        Plan { level: Level::new(), purpose }
+/// With the best instruction set of this machine.
+impl From<BuildFor> for Plan {
+    fn from(purpose: BuildFor) -> Plan {
+        Plan { purpose, simd: SimdLevel::best() }
     }
 }
 
-#[cfg(test)]
-impl From<Level> for Plan {
-    fn from(level: Level) -> Plan {
-        Plan { level, purpose: BuildFor::default() }
+/// For a picture.
+impl From<SimdLevel> for Plan {
+    fn from(simd: SimdLevel) -> Plan {
+        Plan { purpose: BuildFor::default(), simd }
     }
 }
 
@@ -95,7 +97,7 @@ pub(crate) fn build(items: &mut [Item], leaves: Leaves, plan: Plan) -> Bvh {
     debug_assert!(leaves.most <= MAX_LEAF);
     let mut builder = Builder::new(leaves, plan, items.len());
     if !items.is_empty() {
-        let (bounds, centers) = measure(plan.level, items);
+        let (bounds, centers) = measure(plan.simd.level(), items);
         let all = Part { start: 0, end: items.len(), bounds, centers, whole: false };
         builder.node(items, 0, all, 1);
     }
@@ -210,14 +212,14 @@ impl Builder {
         match cut {
             Some(cut) if blocks <= self.leaves.most && blocks as f32 * part.bounds.half_area() <= cut.cost => None,
             Some(cut) => {
-                let (middle, sides) = partition(self.plan.level, items, &cut);
+                let (middle, sides) = partition(self.plan.simd.level(), items, &cut);
                 divided(middle, sides)
             }
             None if blocks <= self.leaves.most && !must_halve(depth) => None,
             None => {
                 let middle = halve(items, &part.centers);
                 let (left, right) = items.split_at(middle);
-                divided(middle, [measure(self.plan.level, left), measure(self.plan.level, right)])
+                divided(middle, [measure(self.plan.simd.level(), left), measure(self.plan.simd.level(), right)])
             }
         }
     }
@@ -225,8 +227,8 @@ impl Builder {
     /// The cut with the least expected cost, if any divides the items.
     fn best_cut(&mut self, items: &[Item], part: &Part) -> Option<Cut> {
         self.bins.prepare(items.len(), &part.centers, self.plan.purpose);
-        fill(self.plan.level, &mut self.bins, items);
-        best_cut(self.plan.level, &self.bins, self.leaves.block, part.bounds.half_area())
+        fill(self.plan.simd.level(), &mut self.bins, items);
+        best_cut(self.plan.simd.level(), &self.bins, self.leaves.block, part.bounds.half_area())
     }
 
     fn blocks(&self, count: usize) -> usize {

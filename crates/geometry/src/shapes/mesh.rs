@@ -55,11 +55,7 @@ impl Mesh {
     pub const MOST_TRIANGLES: usize = MAX_ITEMS;
 
     /// Builds the tree, with as many threads as the current pool has.
-    pub fn build(source: Arc<dyn MeshSource>, purpose: BuildFor) -> Mesh {
-        Mesh::build_as(source, Plan::new(purpose))
-    }
-
-    fn build_as(source: Arc<dyn MeshSource>, plan: Plan) -> Mesh {
+    pub fn build(source: Arc<dyn MeshSource>, plan: Plan) -> Mesh {
         let (positions, triangles) = (source.positions(), source.triangles());
         let corners = |id: usize| triangles[id].map(|vertex| positions[vertex as usize]);
         let item = |id: usize| Item::new(id as u32, bounds_of(corners(id)));
@@ -74,7 +70,7 @@ impl Mesh {
         let numbered = |id: u32| (id, corners(id as usize));
         let block = |leaf: Range<usize>| Triangles::new(items[leaf].iter().map(|item| numbered(item.number())));
         let blocks = of_leaves.into_par_iter().map(block).collect();
-        Mesh { bounds: Bounds::from(bounds), bvh, blocks, enclosed: OnceLock::new(), level: plan.level, source }
+        Mesh { bounds: Bounds::from(bounds), bvh, blocks, enclosed: OnceLock::new(), level: plan.simd.level(), source }
     }
 
     /// Bytes held beside the source.

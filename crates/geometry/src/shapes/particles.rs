@@ -105,27 +105,7 @@ impl Particles {
     pub const MOST: usize = MAX_ITEMS;
 
     /// Balls, each with its center and radius.
-    pub fn spheres(count: usize, purpose: BuildFor, sphere: impl Fn(usize) -> (DVec3, f64) + Sync) -> Particles {
-        Particles::spheres_as(Plan::new(purpose), count, sphere)
-    }
-
-    /// Frusta, each between the middles of its base and its top, with the radii there, of which one may be 0. Those whose
-    /// ends are the same point in single precision are not there.
-    pub fn frusta(
-        count: usize,
-        open: bool,
-        purpose: BuildFor,
-        frustum: impl Fn(usize) -> ([DVec3; 2], [f64; 2]) + Sync,
-    ) -> Particles {
-        Particles::frusta_as(Plan::new(purpose), count, open, frustum)
-    }
-
-    /// Capsules, each with the centers of its half balls and their radius.
-    pub fn capsules(count: usize, purpose: BuildFor, capsule: impl Fn(usize) -> ([DVec3; 2], f64) + Sync) -> Particles {
-        Particles::capsules_as(Plan::new(purpose), count, capsule)
-    }
-
-    pub(crate) fn spheres_as(plan: Plan, count: usize, sphere: impl Fn(usize) -> (DVec3, f64) + Sync) -> Particles {
+    pub fn spheres(count: usize, plan: Plan, sphere: impl Fn(usize) -> (DVec3, f64) + Sync) -> Particles {
         let origin = origin_for((0..count).map(|index| sphere(index).0));
         let numbers = |index: usize| {
             let (center, radius) = sphere(index);
@@ -133,13 +113,15 @@ impl Particles {
             [x, y, z, radius as f32]
         };
         let (bvh, blocks, bounds) = plant::<Ball, _>(count, numbers, plan);
-        Particles { origin, bvh, blocks: Blocks::Spheres(blocks), bounds, level: plan.level }
+        Particles { origin, bvh, blocks: Blocks::Spheres(blocks), bounds, level: plan.simd.level() }
     }
 
-    pub(crate) fn frusta_as(
-        plan: Plan,
+    /// Frusta, each between the middles of its base and its top, with the radii there, of which one may be 0. Those whose
+    /// ends are the same point in single precision are not there.
+    pub fn frusta(
         count: usize,
         open: bool,
+        plan: Plan,
         frustum: impl Fn(usize) -> ([DVec3; 2], [f64; 2]) + Sync,
     ) -> Particles {
         let origin = origin_for((0..count).flat_map(|index| frustum(index).0));
@@ -150,14 +132,11 @@ impl Particles {
         };
         let (bvh, blocks, bounds) = plant::<Frustum<false>, _>(count, numbers, plan);
         let blocks = if open { Blocks::OpenFrusta(blocks) } else { Blocks::Frusta(blocks) };
-        Particles { origin, bvh, blocks, bounds, level: plan.level }
+        Particles { origin, bvh, blocks, bounds, level: plan.simd.level() }
     }
 
-    pub(crate) fn capsules_as(
-        plan: Plan,
-        count: usize,
-        capsule: impl Fn(usize) -> ([DVec3; 2], f64) + Sync,
-    ) -> Particles {
+    /// Capsules, each with the centers of its half balls and their radius.
+    pub fn capsules(count: usize, plan: Plan, capsule: impl Fn(usize) -> ([DVec3; 2], f64) + Sync) -> Particles {
         let origin = origin_for((0..count).flat_map(|index| capsule(index).0));
         let numbers = |index: usize| {
             let (ends, radius) = capsule(index);
@@ -165,7 +144,7 @@ impl Particles {
             [a, b, c, d, e, f, radius as f32]
         };
         let (bvh, blocks, bounds) = plant::<Capsule, _>(count, numbers, plan);
-        Particles { origin, bvh, blocks: Blocks::Capsules(blocks), bounds, level: plan.level }
+        Particles { origin, bvh, blocks: Blocks::Capsules(blocks), bounds, level: plan.simd.level() }
     }
 }
 

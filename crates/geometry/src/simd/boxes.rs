@@ -240,7 +240,7 @@ pub(crate) fn round_up(x: f64) -> f32 {
 mod tests {
     use super::*;
     use crate::shapes::testing::Random;
-    use crate::world::levels;
+    use crate::simd::level::SimdLevel;
     use durer_math::DVec3;
     use fearless_simd::dispatch;
 
@@ -248,7 +248,7 @@ mod tests {
     #[test]
     fn a_ray_in_the_plane_of_a_face_meets_the_box() {
         let mut random = Random(31);
-        for level in levels() {
+        for level in SimdLevel::available() {
             for _ in 0..2_000 {
                 let place =
                     |random: &mut Random| if random.between(0.0, 4.0) < 1.0 { 0.0 } else { random.power(-6.0, 6.0) };
@@ -260,7 +260,7 @@ mod tests {
                 let direction = DVec3::new([0.0, -0.0][random.between(0.0, 2.0) as usize], 0.0, 1.0);
                 let ray = Ray { origin: DVec3::new(f64::from(x), f64::from(y), 0.0), direction };
                 let packet = BoxPacket::new(&Packet::new(&[ray; 3]), Most::USUAL).expect("all the same");
-                let (alone, together) = dispatch!(level, simd => {
+                let (alone, together) = dispatch!(level.level(), simd => {
                     (BoxRay::new(&ray).hits(simd, &boxes, 1e9).0, packet.hits(simd, &boxes, 1e9).0)
                 });
                 assert_eq!((alone, together), (0b11, 0b11), "{ray:?}, extent {extent}");

@@ -1,6 +1,7 @@
 //! The tree, the lists and every instruction set find what testing all primitives one by one finds, to the last bit.
 
 use super::*;
+use crate::SimdLevel;
 use durer_math::{DAffine3, DMat3, DVec2, rotation};
 
 /// Random numbers, the same at every run (Knuth's MMIX multiplier).
@@ -61,16 +62,6 @@ impl Random {
     }
 }
 
-pub(crate) fn levels() -> Vec<Level> {
-    let mut levels = vec![Level::baseline(), Level::new()];
-    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    {
-        levels.extend(Level::new().as_sse4_2().map(Level::Sse4_2));
-        levels.extend(Level::new().as_avx2().map(Level::Avx2));
-    }
-    levels
-}
-
 fn closest_by_hand(primitives: &[Primitive], ray: &Ray, t_max: f64, mask: u32) -> Option<Hit> {
     let mut best: Option<Hit> = None;
     for (id, primitive) in primitives.iter().enumerate().filter(|(_, p)| p.mask & mask != 0) {
@@ -88,8 +79,10 @@ fn for_random_scenes(check: impl Fn(&[Primitive], &[World], &mut Random)) {
     for (bounded, planes) in [(0, 0), (1, 0), (0, 1), (7, 2), (9, 0), (60, 6), (60, 20), (400, 3), (2000, 0)] {
         for _ in 0..if bounded < 100 { 6 } else { 1 } {
             let primitives = random.scene(bounded, planes);
-            let worlds: Vec<World> =
-                levels().into_iter().map(|level| World::build_as(primitives.clone(), level.into())).collect();
+            let worlds: Vec<World> = SimdLevel::available()
+                .into_iter()
+                .map(|level| World::build(primitives.clone(), level.into()))
+                .collect();
             check(&primitives, &worlds, &mut random);
         }
     }
@@ -213,7 +206,7 @@ fn of_axis_aligned_faces_all_but_in_one_place_the_nearer_is_hit_and_of_equal_one
             // Enough things to make the tree a tree.
             let mut primitives = vec![sheet(y), sheet(y + gap), sheet(y)];
             primitives.extend((0..20).map(|_| random.primitive(0.1)));
-            let world = World::build(primitives.clone(), BuildFor::Picture);
+            let world = World::build(primitives.clone(), Plan::default());
             let vantage_point = DVec3::new(0.2, 5.0, 0.1);
             let vantage = world.vantage(vantage_point, u32::MAX);
             for i in 0..2000 {
@@ -235,7 +228,7 @@ fn one_plane_written_twice_is_hit_as_the_first_whatever_finds_it() {
         Primitive::plane(DVec3::NEG_Y, DVec3::Y, &DAffine3::IDENTITY),
         Primitive::plane(DVec3::NEG_Y / 0.7, DVec3::Y, &scaled),
     ];
-    let world = World::build(primitives.clone(), BuildFor::Picture);
+    let world = World::build(primitives.clone(), Plan::default());
     let eye = DVec3::new(0.3, 1.9, 0.4);
     let vantage = world.vantage(eye, u32::MAX);
     let mut random = Random(13);
@@ -250,7 +243,7 @@ fn one_plane_written_twice_is_hit_as_the_first_whatever_finds_it() {
 #[test]
 fn a_plane_through_the_light_hides_no_other_plane() {
     let level = |y: f64| Primitive::plane(DVec3::Y * y, DVec3::Y, &DAffine3::IDENTITY);
-    let world = World::build(vec![level(0.3), level(0.0), level(-2.0)], BuildFor::Picture);
+    let world = World::build(vec![level(0.3), level(0.0), level(-2.0)], Plan::default());
     let light = DVec3::new(0.0, 0.3_f64.next_up(), 0.0);
     let vantage = world.vantage(light, 1);
     let origin = DVec3::new(0.5, -1.9, 0.2);
@@ -304,7 +297,7 @@ fn the_tree_is_no_deeper_than_its_stack_allows() {
         );
         Primitive::sphere(DVec3::ZERO, 1.0, &map)
     };
-    let world = World::build((0..6000).map(nested).collect(), BuildFor::Picture);
+    let world = World::build((0..6000).map(nested).collect(), Plan::default());
     assert!(
         world
             .closest_hit(&Ray { origin: DVec3::X * 9000.0, direction: DVec3::NEG_X }, f64::INFINITY, 1, None)

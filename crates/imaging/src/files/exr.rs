@@ -8,7 +8,9 @@ use half::f16;
 use std::io::Cursor;
 use std::result::Result;
 
-use crate::{Alpha, Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, ExrSamples, FileFormat, Texels};
+use crate::{
+    Alpha, Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, ExrSamples, FileFacts, FileFormat, Texels,
+};
 
 /// Pixels as they come in, in any order.
 struct Canvas {
@@ -56,6 +58,32 @@ fn decode_flat(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, DecodeErro
     let (width, height) = (size.width() as u32, size.height() as u32);
     let alpha = (!canvas.alphas.is_empty()).then_some(Alpha::F32(canvas.alphas));
     Ok(Bitmap { width, height, texels: Texels::F32(canvas.texels), alpha })
+}
+
+pub(crate) fn about(bytes: &[u8]) -> Result<FileFacts, DecodeError> {
+    let headers = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(decode_error)?.headers;
+    let header = headers.first().ok_or_else(|| corrupt("there is no layer".into()))?;
+    let word = |samples: SampleType| match samples {
+        SampleType::F16 => "half",
+        SampleType::F32 => "float",
+        SampleType::U32 => "integer",
+    };
+    let channels: Vec<String> =
+        header.channels.list.iter().map(|c| format!("{} {}", c.name, word(c.sample_type))).collect();
+    let size = (header.layer_size.width() as u32, header.layer_size.height() as u32);
+    let metadata = header.own_attributes.comments.as_ref().map(pairs).unwrap_or_default();
+    Ok(FileFacts { metadata, ..FileFacts::plain(FileFormat::Exr, size, &channels.join(", ")) })
+}
+
+/// The lines of the attribute [`comments`] writes; a line of another kind has that attribute's name for a keyword.
+fn pairs(comments: &Text) -> Vec<(String, String)> {
+    // A character of the crate's is a byte of UTF-8.
+    let bytes: Vec<u8> = comments.bytes().to_vec();
+    let pair = |line: &str| {
+        let (keyword, text) = line.split_once(": ").unwrap_or(("comments", line));
+        (keyword.to_owned(), text.to_owned())
+    };
+    String::from_utf8_lossy(&bytes).lines().map(pair).collect()
 }
 
 /// Refuses a layer that is too large, has no pixels, or is cut into blocks too large to hold in memory.

@@ -4,7 +4,7 @@
 //! a long row of old-style run lengths. Mantissas are rounded, not cut, which is best for the many readers that, like
 //! this one, add no half to them. The note EXPOSURE is not applied, as in other renderers.
 
-use crate::{Bitmap, DecodeError, DecodeLimits, FileFormat, Image, Texels};
+use crate::{Bitmap, DecodeError, DecodeLimits, FileFacts, FileFormat, Image, Texels};
 use durer_math::Rgb;
 
 /// Rows of other widths are never run-length encoded in the new style.
@@ -25,6 +25,11 @@ pub(crate) fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, Deco
         texels.extend(row.iter().map(|&pixel| light(pixel)));
     }
     Ok(Bitmap { width, height, texels: Texels::F32(texels), alpha: None })
+}
+
+pub(crate) fn about(bytes: &[u8]) -> Result<FileFacts, DecodeError> {
+    let size = read_header(&mut &bytes[..])?;
+    Ok(FileFacts::plain(FileFormat::Hdr, size, "RGB, 8 bits each with one exponent"))
 }
 
 /// Reads the lines up to the empty one, and the one with the size after it.

@@ -13,7 +13,7 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 use crate::quantize::bytes_from_linear;
-use crate::{Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, FileFormat, Image, Texels};
+use crate::{Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, FileFacts, FileFormat, Image, Texels};
 
 pub(crate) fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, DecodeError> {
     let options = DecoderOptions::default()
@@ -34,6 +34,27 @@ pub(crate) fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, Deco
     let upright = upright(width as u32, height as u32, samples, orientation)?;
     let texels = upright.as_raw().as_chunks::<3>().0.to_vec();
     Ok(Bitmap { width: upright.width(), height: upright.height(), texels: Texels::U8(texels), alpha: None })
+}
+
+pub(crate) fn about(bytes: &[u8]) -> Result<FileFacts, DecodeError> {
+    let mut decoder =
+        JpegDecoder::new_with_options(ZCursor::new(bytes), DecoderOptions::default().set_use_unsafe(false));
+    decoder.decode_headers().map_err(|error| decode_error(&error, bytes))?;
+    let info = decoder.info().ok_or_else(|| corrupt("there is no size".into()))?;
+    let (width, height) = (u32::from(info.width), u32::from(info.height));
+    let orientation = decoder.exif().and_then(|exif| Orientation::from_exif_chunk(exif));
+    let size = match orientation {
+        Some(
+            Orientation::Rotate90 | Orientation::Rotate270 | Orientation::Rotate90FlipH | Orientation::Rotate270FlipH,
+        ) => (height, width),
+        Some(_) | None => (width, height),
+    };
+    let samples = match info.components {
+        1 => "gray, 8 bits",
+        4 => "CMYK, 8 bits each",
+        _ => "RGB, 8 bits each",
+    };
+    Ok(FileFacts::plain(FileFormat::Jpeg, size, samples))
 }
 
 /// The picture turned as the camera says that it was held.

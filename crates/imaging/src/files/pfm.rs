@@ -1,6 +1,6 @@
 //! Portable float maps (Debevec): a text header, then single-precision numbers, bottom row first.
 
-use crate::{Bitmap, DecodeError, DecodeLimits, FileFormat, Image, Texels};
+use crate::{Bitmap, DecodeError, DecodeLimits, FileFacts, FileFormat, Image, Texels};
 
 /// The header's lines, and the bytes after them.
 struct Header<'a> {
@@ -23,6 +23,12 @@ pub(crate) fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, Deco
     let texels = rows.rev().flat_map(|row| row.chunks_exact(header.channels * 4)).map(|pixel| header.texel(pixel));
     let texels = Texels::F32(texels.collect());
     Ok(Bitmap { width: header.width, height: header.height, texels, alpha: None })
+}
+
+pub(crate) fn about(bytes: &[u8]) -> Result<FileFacts, DecodeError> {
+    let header = parse_header(bytes)?;
+    let samples = if header.channels == 3 { "RGB, 32-bit floating point each" } else { "gray, 32-bit floating point" };
+    Ok(FileFacts::plain(FileFormat::Pfm, (header.width, header.height), samples))
 }
 
 impl Header<'_> {

@@ -5,7 +5,8 @@ use std::io::{Cursor, ErrorKind};
 
 use crate::quantize::{bytes_from_linear, word_from_linear};
 use crate::{
-    Alpha, Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, FileFormat, Image, PngDepth, Texels, Transfer,
+    Alpha, Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, FileFacts, FileFormat, Image, PngDepth,
+    Texels, Transfer,
 };
 
 pub(crate) fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, DecodeError> {
@@ -36,6 +37,28 @@ pub(crate) fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, Deco
         (Texels::U8(colors(&samples, color)), alphas(&samples, color, u8::MAX).map(Alpha::U8))
     };
     Ok(Bitmap { width, height, texels, alpha })
+}
+
+pub(crate) fn about(bytes: &[u8]) -> Result<FileFacts, DecodeError> {
+    let mut reader = ::png::Decoder::new(Cursor::new(bytes)).read_info().map_err(decode_error)?;
+    // Texts may stand behind the pixels too. Whether those are whole is not asked here.
+    let _ = reader.finish();
+    let info = reader.info();
+    let color = match info.color_type {
+        ColorType::Grayscale => "gray",
+        ColorType::Rgb => "RGB",
+        ColorType::Indexed => "palette",
+        ColorType::GrayscaleAlpha => "gray and alpha",
+        ColorType::Rgba => "RGB and alpha",
+    };
+    let each = if matches!(info.color_type, ColorType::Grayscale | ColorType::Indexed) { "" } else { " each" };
+    let samples = format!("{color}, {} bits{each}", info.bit_depth as u8);
+    let plain = info.uncompressed_latin1_text.iter().map(|chunk| (chunk.keyword.clone(), chunk.text.clone()));
+    let packed = info.compressed_latin1_text.iter();
+    let packed = packed.filter_map(|chunk| Some((chunk.keyword.clone(), chunk.get_text().ok()?)));
+    let other = info.utf8_text.iter().filter_map(|chunk| Some((chunk.keyword.clone(), chunk.get_text().ok()?)));
+    let metadata = plain.chain(packed).chain(other).collect();
+    Ok(FileFacts { metadata, ..FileFacts::plain(FileFormat::Png, (info.width, info.height), &samples) })
 }
 
 /// Colours from samples.

@@ -165,6 +165,7 @@ impl<'s> Adaptive<'s> {
     }
 
     /// Forgets what is above a row of pixels.
+    #[expect(clippy::disallowed_methods, reason = "what is kept does not depend on the order")]
     fn forget_above(&mut self, row: u32) {
         let first = row * UNIT;
         self.looks.finer.retain(|place, _| place.y >= first);

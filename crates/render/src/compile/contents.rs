@@ -3,7 +3,7 @@
 use super::GeometryMemory;
 use super::looks::Colors;
 use super::{particles, shapes, solids};
-use durer_geometry::{BuildFor, Mesh, MeshSource, Primitive};
+use durer_geometry::{Mesh, MeshSource, Plan, Primitive};
 use durer_math::DAffine3;
 use durer_scene::{MeshData, Object, ObjectKind, Particles, Shape, Solid};
 use rayon::prelude::*;
@@ -16,8 +16,8 @@ pub(super) struct Contents {
     meshes: Vec<Arc<Mesh>>,
     /// Where the mesh of some data is in that list, by the data's address.
     indices: HashMap<usize, usize>,
-    /// What trees are built for.
-    purpose: BuildFor,
+    /// How trees are built.
+    plan: Plan,
 }
 
 /// A shape of any kind, in its object's space.
@@ -57,7 +57,7 @@ impl MeshSource for Shared {
 
 impl Contents {
     /// Builds what these objects are made of, with the threads of the current pool.
-    pub(super) fn of(objects: &[Object], purpose: BuildFor) -> Contents {
+    pub(super) fn of(objects: &[Object], plan: Plan) -> Contents {
         let (mut indices, mut found) = (HashMap::new(), Vec::new());
         each_mesh(objects, &mut |data| {
             indices.entry(address(data)).or_insert_with(|| {
@@ -65,8 +65,8 @@ impl Contents {
                 found.len() - 1
             });
         });
-        let build = |data: Arc<MeshData>| Arc::new(Mesh::build(Arc::new(Shared(data)), purpose));
-        Contents { meshes: found.into_par_iter().map(build).collect(), indices, purpose }
+        let build = |data: Arc<MeshData>| Arc::new(Mesh::build(Arc::new(Shared(data)), plan));
+        Contents { meshes: found.into_par_iter().map(build).collect(), indices, plan }
     }
 
     /// Bytes of the meshes, and how many triangles they have.
@@ -87,7 +87,7 @@ impl Contents {
                 Some(Content::Mesh(self.meshes[index].clone(), &mesh.data))
             }
             ObjectKind::Particles(particles) => (!particles.kind.is_empty())
-                .then(|| Content::Particles(Arc::new(particles::build(particles, self.purpose)), particles)),
+                .then(|| Content::Particles(Arc::new(particles::build(particles, self.plan)), particles)),
             ObjectKind::Solid(solid) => Some(Content::Solid(Box::new(solids::build(solid, self)), solid)),
             ObjectKind::Group(_) | ObjectKind::Instances(_) | ObjectKind::Import(_) => None,
         }

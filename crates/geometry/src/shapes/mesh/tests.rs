@@ -1,8 +1,8 @@
 //! A mesh answers as its triangles do, tested one by one, at every instruction set, for rays alone and in packets.
 
 use super::*;
+use crate::SimdLevel;
 use crate::shapes::testing::Random;
-use crate::world::levels;
 
 #[derive(Debug)]
 struct Lists {
@@ -114,9 +114,9 @@ fn the_nearest_triangle_is_that_of_testing_all() {
     let mut random = Random(21);
     for count in [1, 2, 5, 9, 40, 700] {
         let lists: Arc<dyn MeshSource> = Arc::new(soup(&mut random, count));
-        let built = |plan: Plan| Mesh::build_as(Arc::clone(&lists), plan);
-        let of_levels = levels().into_iter().map(|level| built(level.into()));
-        let of_purposes = [BuildFor::Preview, BuildFor::ManyRays].into_iter().map(|purpose| built(Plan::new(purpose)));
+        let built = |plan: Plan| Mesh::build(Arc::clone(&lists), plan);
+        let of_levels = SimdLevel::available().into_iter().map(|level| built(level.into()));
+        let of_purposes = [BuildFor::Preview, BuildFor::ManyRays].into_iter().map(|purpose| built(purpose.into()));
         let meshes: Vec<Mesh> = of_levels.chain(of_purposes).collect();
         for _ in 0..400 {
             let ray = some_ray(&mut random, &meshes[0]);
@@ -135,8 +135,8 @@ fn rays_in_a_packet_hit_what_they_hit_alone() {
     let mut random = Random(22);
     for count in [3, 60, 3000] {
         let lists: Arc<dyn MeshSource> = Arc::new(soup(&mut random, count));
-        for level in levels() {
-            let mesh = Mesh::build_as(Arc::clone(&lists), level.into());
+        for level in SimdLevel::available() {
+            let mesh = Mesh::build(Arc::clone(&lists), level.into());
             for _ in 0..300 {
                 let first = some_ray(&mut random, &mesh);
                 let spread = random.power(-4.0, 0.5);
@@ -166,7 +166,7 @@ fn rays_in_a_packet_hit_what_they_hit_alone() {
 #[test]
 fn no_ray_leaves_a_closed_mesh() {
     let mut random = Random(23);
-    let mesh = Mesh::build(Arc::new(ball(24)), BuildFor::Picture);
+    let mesh = Mesh::build(Arc::new(ball(24)), Plan::default());
     assert!(mesh.is_closed());
     for _ in 0..100_000 {
         let corner = |random: &mut Random| {
@@ -184,7 +184,7 @@ fn no_ray_leaves_a_closed_mesh() {
 #[test]
 fn inside_is_inside() {
     let mut random = Random(24);
-    let mesh = Mesh::build(Arc::new(ball(16)), BuildFor::Picture);
+    let mesh = Mesh::build(Arc::new(ball(16)), Plan::default());
     let mut inside = 0;
     for _ in 0..3000 {
         let point = random.in_cube() * 1.5;
@@ -206,7 +206,7 @@ fn the_tree_is_the_same_for_any_number_of_threads() {
     let built: Vec<Mesh> = [1, 2, 5]
         .map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-            pool.install(|| Mesh::build(Arc::clone(&lists), BuildFor::Picture))
+            pool.install(|| Mesh::build(Arc::clone(&lists), Plan::default()))
         })
         .into();
     for mesh in &built[1..] {
@@ -217,7 +217,7 @@ fn the_tree_is_the_same_for_any_number_of_threads() {
 #[test]
 fn equal_centers_make_no_endless_tree() {
     let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let mesh = Mesh::build(Arc::new(Lists { positions, triangles: vec![[0, 1, 2]; 5000] }), BuildFor::Picture);
+    let mesh = Mesh::build(Arc::new(Lists { positions, triangles: vec![[0, 1, 2]; 5000] }), Plan::default());
     let ray = Ray { origin: DVec3::new(0.2, 0.2, 1.0), direction: DVec3::NEG_Z };
     assert_eq!(mesh.intersect(&ray, 2.0), Some(Crossing { t: 1.0, part: 0 }));
 }
@@ -238,8 +238,8 @@ fn tiles(half: i32) -> Lists {
 #[test]
 fn rays_in_the_planes_between_boxes_meet_the_edges_there() {
     let lists: Arc<dyn MeshSource> = Arc::new(tiles(20));
-    for level in levels() {
-        let mesh = Mesh::build_as(Arc::clone(&lists), level.into());
+    for level in SimdLevel::available() {
+        let mesh = Mesh::build(Arc::clone(&lists), level.into());
         for (x, y) in (-19..20).flat_map(|x| (-19..20).map(move |y| (f64::from(x), f64::from(y)))) {
             for (sign, distance) in [(1.0, 2.0), (-1.0, 7.0)] {
                 let origin = DVec3::new(x, y, if sign > 0.0 { 0.0 } else { 9.0 });
@@ -286,7 +286,7 @@ fn crossings_of(mesh: &Mesh, ray: &Ray) -> (bool, Vec<f64>) {
 #[test]
 fn bodies_of_one_mesh_that_overlap_are_one_whichever_way_they_face() {
     for lists in [cubes(&[[-1.0, 1.0], [0.0, 2.0]]), inside_out(cubes(&[[-1.0, 1.0], [0.0, 2.0]]))] {
-        let mesh = Mesh::build(Arc::new(lists), BuildFor::Picture);
+        let mesh = Mesh::build(Arc::new(lists), Plan::default());
         assert!(mesh.is_closed());
         // Off the edges, along diagonals of faces, and through corners.
         for (origin, expected) in [
@@ -318,7 +318,7 @@ fn rays_through_edges_and_corners_go_in_and_out_in_turn() {
     let lists = ball(12);
     let corners: Vec<DVec3> = lists.positions.iter().map(|&position| wide(position)).collect();
     let edges: Vec<[u32; 2]> = lists.triangles.iter().map(|&[a, b, _]| [a, b]).collect();
-    let mesh = Mesh::build(Arc::new(lists), BuildFor::Picture);
+    let mesh = Mesh::build(Arc::new(lists), Plan::default());
     let mut random = Random(42);
     let mut met = 0;
     for i in 0..20_000 {

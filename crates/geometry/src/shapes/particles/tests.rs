@@ -9,7 +9,7 @@ mod trees;
 
 use super::super::testing::{Known, Random};
 use super::*;
-use crate::{Primitive, Surface, World};
+use crate::{Primitive, SimdLevel, Surface, World};
 use durer_math::functions::cbrt;
 use durer_math::{DAffine3, DMat3, rotation};
 use std::sync::Arc;
@@ -28,7 +28,7 @@ const KINDS: [u32; 4] = [0, 1, 2, 3];
 
 impl One {
     fn set(self) -> Particles {
-        set(Level::new(), &[self])
+        set(SimdLevel::best(), &[self])
     }
 
     /// The same as single shapes placed by `map`; a capsule is several.
@@ -109,7 +109,7 @@ impl One {
 }
 
 /// Particles of the kind of the first.
-fn set(level: Level, all: &[One]) -> Particles {
+fn set(level: SimdLevel, all: &[One]) -> Particles {
     let ends = |index: usize| match all[index] {
         One::Sphere(center, radius) => ([center; 2], [radius; 2]),
         One::Frustum(ends, radii) | One::Tube(ends, radii) => (ends, radii),
@@ -117,10 +117,10 @@ fn set(level: Level, all: &[One]) -> Particles {
     };
     let round = |index: usize| (ends(index).0, ends(index).1[0]);
     match all[0] {
-        One::Sphere(..) => Particles::spheres_as(level.into(), all.len(), |index| (round(index).0[0], round(index).1)),
-        One::Frustum(..) => Particles::frusta_as(level.into(), all.len(), false, ends),
-        One::Tube(..) => Particles::frusta_as(level.into(), all.len(), true, ends),
-        One::Capsule(..) => Particles::capsules_as(level.into(), all.len(), round),
+        One::Sphere(..) => Particles::spheres(all.len(), level.into(), |index| (round(index).0[0], round(index).1)),
+        One::Frustum(..) => Particles::frusta(all.len(), false, level.into(), ends),
+        One::Tube(..) => Particles::frusta(all.len(), true, level.into(), ends),
+        One::Capsule(..) => Particles::capsules(all.len(), level.into(), round),
     }
 }
 
@@ -168,15 +168,4 @@ impl Random {
             })
             .collect()
     }
-}
-
-fn levels() -> Vec<Level> {
-    let mut levels = vec![Level::baseline(), Level::new()];
-    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    {
-        levels.extend(Level::new().as_sse4_2().map(Level::Sse4_2));
-        levels.extend(Level::new().as_avx2().map(Level::Avx2));
-        levels.extend(Level::new().as_avx512().map(Level::Avx512));
-    }
-    levels
 }

@@ -77,8 +77,10 @@ impl<'a> Walk<'a> {
             self.states = States::new(self.solid);
             self.survey();
         }
-        // Of two at the same place the leaf that was given first comes first, whatever way of sorting this is.
-        self.events.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(a.leaf.first_part.cmp(&b.leaf.first_part)));
+        // Of two at the same place the leaf that was given first comes first, and of its parts the first, whatever way of
+        // sorting this is: that may depend on the machine.
+        let part = |event: &Event<'_>| event.leaf.first_part + event.part;
+        self.events.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(part(a).cmp(&part(b))));
         let inside = self.states.is_inside();
         match self.pass_change() {
             Some(first) if self.starts_at(first) => inside != self.pass_thin(first),

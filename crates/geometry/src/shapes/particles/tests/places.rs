@@ -5,7 +5,7 @@ use super::*;
 #[test]
 fn that_single_precision_holds_are_kept() {
     let mut random = Random(91);
-    let set = set(Level::new(), &random.particles(0, 10));
+    let set = set(SimdLevel::best(), &random.particles(0, 10));
     assert_eq!(set.origin(), DVec3::ZERO);
 }
 
@@ -14,9 +14,9 @@ fn far_from_the_origin_are_kept_relative_to_their_middle() {
     let far = DVec3::new(1e7 + 0.1, -3e7, 2e7);
     let mut random = Random(92);
     let centers: Vec<DVec3> = (0..200).map(|_| far + random.in_cube()).collect();
-    let set = Particles::spheres(200, BuildFor::Picture, |index| (centers[index], 0.25));
+    let set = Particles::spheres(200, Plan::default(), |index| (centers[index], 0.25));
     assert!((set.origin() - far).length() < 0.5);
-    let world = World::build(vec![Primitive::particles(Arc::new(set), &DAffine3::IDENTITY)], BuildFor::Picture);
+    let world = World::build(vec![Primitive::particles(Arc::new(set), &DAffine3::IDENTITY)], Plan::default());
     for center in centers {
         let ray = Ray { origin: center + DVec3::Y * 3.0, direction: DVec3::NEG_Y };
         let hit = world.closest_hit(&ray, f64::INFINITY, u32::MAX, None).expect("a sphere");
@@ -28,7 +28,7 @@ fn far_from_the_origin_are_kept_relative_to_their_middle() {
 fn axes_without_a_length_leave_nothing_or_a_ball() {
     let ends = [DVec3::new(1.0, 0.5, 0.25); 2];
     let mut random = Random(93);
-    let gone = Particles::frusta(5, false, BuildFor::Picture, |_| (ends, [0.5, 0.25]));
+    let gone = Particles::frusta(5, false, Plan::default(), |_| (ends, [0.5, 0.25]));
     let ball = One::Capsule(ends, 0.5).set();
     let sphere = One::Sphere(ends[0], 0.5).set();
     for _ in 0..2000 {
@@ -48,11 +48,11 @@ fn axes_without_a_length_leave_nothing_or_a_ball() {
 
 #[test]
 fn no_particles_are_nowhere() {
-    let none = Particles::spheres(0, BuildFor::Picture, |_| (DVec3::ZERO, 1.0));
+    let none = Particles::spheres(0, Plan::default(), |_| (DVec3::ZERO, 1.0));
     let ray = Ray { origin: DVec3::ZERO, direction: DVec3::X };
     assert!(none.intersect(&ray, f64::INFINITY).is_none() && !none.meets(&ray, 1.0) && !none.contains(DVec3::ZERO));
     assert!(none.bounds().is_empty());
-    let world = World::build(vec![Primitive::particles(Arc::new(none), &DAffine3::IDENTITY)], BuildFor::Picture);
+    let world = World::build(vec![Primitive::particles(Arc::new(none), &DAffine3::IDENTITY)], Plan::default());
     assert_eq!(world.closest_hit(&ray, f64::INFINITY, u32::MAX, None), None);
 }
 

@@ -4,7 +4,7 @@ use super::*;
 
 /// Particles one by one, each with a tree of its own.
 fn alone(all: &[One]) -> Vec<Particles> {
-    all.iter().map(|one| set(Level::baseline(), &[*one])).collect()
+    all.iter().map(|one| set(SimdLevel::available()[0], &[*one])).collect()
 }
 
 /// The nearest crossing, and whose it is.
@@ -29,7 +29,7 @@ fn find_what_testing_all_finds_at_every_instruction_set() {
             let mut all = random.particles(kind, count);
             // The same thing twice: the lower number must win.
             all.extend_from_within(..count.min(3));
-            let sets: Vec<Particles> = levels().into_iter().map(|level| set(level, &all)).collect();
+            let sets: Vec<Particles> = SimdLevel::available().into_iter().map(|level| set(level, &all)).collect();
             let alone = alone(&all);
             for _ in 0..if count > 100 { 200 } else { 400 } {
                 let ray = random.ray();
@@ -60,7 +60,7 @@ fn surfaces_are_those_of_the_particle_that_a_part_names() {
     for kind in KINDS {
         let mut random = Random(61);
         let all = random.particles(kind, 700);
-        let (set, alone) = (set(Level::new(), &all), alone(&all));
+        let (set, alone) = (set(SimdLevel::best(), &all), alone(&all));
         for _ in 0..2000 {
             let ray = random.ray();
             let Some(crossing) = set.intersect(&ray, f64::INFINITY) else { continue };
@@ -80,7 +80,7 @@ fn of_equals_the_first_wins() {
         let distinct = random.particles(kind, 40);
         // Each forty times over, so that leaves are full of equals.
         let all: Vec<One> = (0..1600).map(|index| distinct[(index * 7) % 40]).collect();
-        let set = set(Level::new(), &all);
+        let set = set(SimdLevel::best(), &all);
         let mut hits = 0;
         for _ in 0..500 {
             let ray = random.ray();
@@ -95,7 +95,7 @@ fn of_equals_the_first_wins() {
 
 #[test]
 fn nested_ones_are_met_from_outside_in() {
-    let shells = Particles::spheres(64, BuildFor::Picture, |index| (DVec3::ZERO, (64 - index) as f64));
+    let shells = Particles::spheres(64, Plan::default(), |index| (DVec3::ZERO, (64 - index) as f64));
     let inwards = Ray { origin: DVec3::X * 100.0, direction: DVec3::NEG_X };
     let mut from = 0.0;
     for index in 0..64 {
@@ -113,6 +113,6 @@ fn nested_ones_are_met_from_outside_in() {
 fn take_few_bytes() {
     let mut random = Random(81);
     let spheres = random.particles(0, 50_000);
-    let bytes = set(Level::new(), &spheres).memory() as f64 / 50_000.0;
+    let bytes = set(SimdLevel::best(), &spheres).memory() as f64 / 50_000.0;
     assert!(bytes < 40.0, "{bytes}");
 }
