@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// For each package of ours, those of ours that it may name.
-const MAY_IMPORT: [(&str, &[&str]); 9] = [
+const MAY_IMPORT: [(&str, &[&str]); 10] = [
     ("durer-math", &[]),
     ("durer-imaging", &["durer-math"]),
     ("durer-geometry", &["durer-math"]),
@@ -15,7 +15,8 @@ const MAY_IMPORT: [(&str, &[&str]); 9] = [
     ("durer-render", &["durer-math", "durer-imaging", "durer-geometry", "durer-scene"]),
     ("durer", &["durer-math", "durer-imaging", "durer-geometry", "durer-scene", "durer-formats", "durer-render"]),
     ("durer-cli", &["durer"]),
-    ("xtask", &["durer"]),
+    ("durer-trials", &["durer"]),
+    ("xtask", &["durer", "durer-trials"]),
 ];
 
 /// What tests, and only tests, may import beside that: package and imported package.

@@ -86,6 +86,8 @@ fn frame(bounds: Bounds, aspect: f64) -> scene::Camera {
         true => (DVec3::ZERO, 2.0),
         false => (bounds.center(), bounds.size().length() * 0.5),
     };
+    // The eye must not be where it looks at, also if what it sees is a point, or is far away for its size.
+    let radius = radius.max(1e-9).max(1e-12 * center.abs().max_element());
     // The sphere around the bounds touches the edges of the view where its sine, not its tangent, is radius / distance.
     let distance = radius * (1.0 + 1.0 / (half_tangent * half_tangent)).sqrt();
     scene::Camera {
@@ -139,6 +141,15 @@ mod tests {
         assert_near(ray.direction, DVec3::NEG_Z);
         let Bounds { min, max } = camera.origins();
         assert!(min.x < -6.0 && max.x > 6.0 && min.y < -2.0 && max.y > 2.0 && max.y < 2.1);
+    }
+
+    #[test]
+    fn an_undescribed_camera_of_a_point_has_a_direction() {
+        for point in [DVec3::ZERO, DVec3::X * 1e12, DVec3::new(1e-9, -1e12, 7.0)] {
+            let camera = Camera::compile(None, Bounds::of_points([point]), 4, 3);
+            let direction = camera.ray(DVec2::new(1.0, 2.0)).direction;
+            assert!((direction.length() - 1.0).abs() < 1e-12, "{direction}");
+        }
     }
 
     #[test]
