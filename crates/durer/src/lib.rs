@@ -15,18 +15,20 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod admit;
 mod files;
 
+pub use admit::admit;
 pub use durer_formats::{
-    AssetError, Assets, Diagnostic, Diagnostics, FolderAssets, Limits, LoadOptions, Loaded, NoAssets, Related,
-    Severity, json_schema, load_bytes, load_file, load_str, reference_markdown, to_yaml,
+    AssetError, Assets, Diagnostic, Diagnostics, Exceeded, FolderAssets, Limit, Limits, LoadOptions, Loaded, NoAssets,
+    Related, Severity, json_schema, load_bytes, load_file, load_str, reference_markdown, to_yaml,
 };
 pub use durer_imaging as imaging;
 pub use durer_math as math;
 pub use durer_render::{
     Bounds, CompiledScene, Contribution, Element, Film, GeometryMemory, HeatMap, HitExplanation, HoleExplanation,
     LightExplanation, NotTraced, PixelExplanation, Progress, RayCounts, RayExplanation, RayKind, Region, RenderError,
-    RenderOptions, SampleExplanation, Source, compile, explain, heatmap, render, with_threads,
+    RenderOptions, SampleExplanation, Source, compile, explain, heatmap, memory_needed, render, with_threads,
 };
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};

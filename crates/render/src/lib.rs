@@ -16,6 +16,7 @@ mod integrators;
 mod lights;
 mod materials;
 mod media;
+mod memory;
 mod observer;
 mod pixel;
 mod schedule;
@@ -31,5 +32,6 @@ pub use explain::{
 };
 pub use film::{Film, Region};
 pub use heatmap::{HeatMap, heatmap};
+pub use memory::memory_needed;
 pub use observer::{NotTraced, RayCounts, RayKind, Source};
 pub use schedule::{Progress, RenderError, RenderOptions, render, with_threads};

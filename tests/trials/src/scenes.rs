@@ -2,6 +2,7 @@
 
 mod looks;
 mod many;
+pub mod maps;
 mod objects;
 
 use crate::Dice;
@@ -145,7 +146,9 @@ impl Maker<'_, '_> {
             return None;
         }
         let projection = match self.dice.below(3) {
-            0 => Projection::FieldOfView { degrees: if self.is_odd() { 179.9999 } else { self.dice.within(20.0, 90.0) } },
+            0 => {
+                Projection::FieldOfView { degrees: if self.is_odd() { 179.9999 } else { self.dice.within(20.0, 90.0) } }
+            }
             1 => Projection::ImagePlane { distance: self.size(), half_height: self.size() },
             _ => Projection::Orthographic { height: 4.0 * self.size() },
         };
@@ -196,7 +199,8 @@ impl Maker<'_, '_> {
         let kind = match self.dice.below(3) {
             0 => LightKind::Point { position: self.lamp(), falloff },
             1 => {
-                let edge = if self.is_odd() { self.dice.one_of(&[1e-5, 90.0, 180.0]) } else { self.dice.within(20.0, 80.0) };
+                let edge =
+                    if self.is_odd() { self.dice.one_of(&[1e-5, 90.0, 180.0]) } else { self.dice.within(20.0, 80.0) };
                 let inner = edge * f64::from(self.fraction());
                 LightKind::Spot {
                     position: self.lamp(),

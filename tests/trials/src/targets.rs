@@ -28,7 +28,7 @@ struct Same<'b>(&'b [u8]);
 impl Assets for Same<'_> {
     fn read(&self, _: &str, max_bytes: u64) -> Result<Vec<u8>, AssetError> {
         match self.0.len() as u64 > max_bytes {
-            true => Err(AssetError::TooLarge(max_bytes)),
+            true => Err(AssetError::TooLarge(self.0.len() as u64)),
             false => Ok(self.0.to_vec()),
         }
     }
@@ -36,7 +36,7 @@ impl Assets for Same<'_> {
 
 /// Less than by default, since each try should be over soon.
 fn limits() -> Limits {
-    Limits { max_texels: 1 << 18, max_triangles: 1 << 18, max_values: 100_000, ..Limits::default() }
+    Limits { max_texture_bytes: 4 << 20, max_primitives: 1 << 18, max_values: 100_000, ..Limits::default() }
 }
 
 /// What stands before the first zero byte, and what stands behind: text files have none.

@@ -1,6 +1,7 @@
 //! `durer info`: what is in a scene, counted.
 
 use crate::exit::{Exit, Failure};
+use crate::interrupt::Interrupt;
 use crate::load::SceneArgs;
 use crate::numbers::{bytes, count, short, thousands, vector};
 use crate::output;
@@ -31,8 +32,9 @@ pub(crate) struct Arguments {
 
 /// Counts what is in the scene.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    Interrupt::after(arguments.scene.time_limit());
     let checked = arguments.scene.load(Show::Progress)?;
-    let compiled = arguments.scene.compile(&checked, Show::Progress);
+    let compiled = arguments.scene.compile(&checked, Show::Progress)?;
     let facts = Facts::of(checked.scene(), &compiled);
     match arguments.json {
         true => output::print_json(&facts.json())?,

@@ -1,9 +1,9 @@
 //! `durer render`: from a scene file to a picture file.
 
-mod interrupt;
 mod report;
 
 use crate::exit::{Exit, Failure};
+use crate::interrupt::Interrupt;
 use crate::load::SceneArgs;
 use crate::overrides::Overrides;
 use crate::progress::{Bar, Show};
@@ -11,7 +11,6 @@ use crate::target::{self, FileOptions};
 use clap::{Args, ValueEnum};
 use durer::imaging::EncodeOptions;
 use durer::{CheckedScene, Film, PictureFile, Region, RenderError, RenderOptions};
-use interrupt::Interrupt;
 use report::{Report, Seconds};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -73,6 +72,7 @@ enum StatsFormat {
 
 /// Renders the scene.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    let interrupt = Interrupt::after(arguments.scene.time_limit());
     let path = arguments.output_path();
     let format = target::format_of(&path)?;
     let mut options = arguments.file.encode_options(format)?;
@@ -80,13 +80,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let scene = scene?;
     options.transfer = scene.scene().picture.transfer;
     arguments.check_crop(&scene)?;
-    let interrupt = Interrupt::new();
+    arguments.scene.admit(&scene)?;
+    interrupt.watch();
     let file = PictureFile::create(&path)?;
     interrupt.removes(file.temporary());
     let (film, build, render) = arguments.trace(&scene, &interrupt)?;
     let report = Report::new(arguments.scene.path.clone(), path, format, &film);
     let seconds = Seconds { load, build, render, write: 0.0 };
-    finish(arguments, film, file, &options, report.with_seconds(seconds))
+    finish(arguments, film, file, &options, report.with_seconds(seconds).stopped_by(interrupt.reason()))
 }
 
 /// Writes what there is, and says so.
@@ -143,6 +144,7 @@ impl Arguments {
     fn trace(&self, scene: &CheckedScene, interrupt: &Interrupt) -> Result<(Film, f64, f64), Failure> {
         durer::with_threads(self.threads.map(usize::from), || {
             let (compiled, build) = timed(|| self.scene.compile(scene, self.show()));
+            let compiled = compiled?;
             let bar = Bar::new(interrupt.stop_flag(), self.show());
             let options = RenderOptions { threads: None, region: self.crop };
             let (film, render) = timed(|| durer::render(&compiled, &options, &bar));

@@ -156,7 +156,7 @@ impl Builder<'_> {
 
     /// Reading recurses, so that no setting may allow more than the default.
     fn deepest(&self) -> usize {
-        self.limits.max_nesting.min(200)
+        self.limits.max_nesting.min(200) as usize
     }
 
     fn too_deep(&self, span: Span) -> Result<(), Stop> {
@@ -171,7 +171,7 @@ impl Builder<'_> {
         if self.stack.len() + target.levels > self.deepest() {
             return self.too_deep(span);
         }
-        if self.total + target.values > self.limits.max_values {
+        if (self.total + target.values) as u64 > self.limits.max_values {
             return self.too_many(span);
         }
         self.add(0, target)
@@ -198,7 +198,7 @@ impl Builder<'_> {
 
     fn add(&mut self, anchor: usize, new: Sized) -> Result<(), Stop> {
         self.total += new.values;
-        if self.total > self.limits.max_values {
+        if self.total as u64 > self.limits.max_values {
             return self.too_many(new.node.span);
         }
         if anchor != 0 {

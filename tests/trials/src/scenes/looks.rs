@@ -43,7 +43,11 @@ impl Maker<'_, '_> {
             ambient: self.strength(),
             diffuse: self.strength(),
             specular: self.light_color(),
-            shininess: if self.is_odd() { self.dice.one_of(&[0.0, 1e-6, 1e6]) } else { self.dice.within(1.0, 60.0) as f32 },
+            shininess: if self.is_odd() {
+                self.dice.one_of(&[0.0, 1e-6, 1e6])
+            } else {
+                self.dice.within(1.0, 60.0) as f32
+            },
             reflection: if self.dice.one_in(3) { self.color() } else { Rgb::BLACK },
             transparency: if is_clear { self.color() } else { Rgb::BLACK },
             ior: self.option(|maker| maker.ior()),

@@ -109,7 +109,8 @@ impl Maker<'_, '_> {
     fn instances(&mut self, depth: usize) -> Instances {
         let positions = self.some(4, Maker::point);
         let count = positions.len();
-        let turn = |maker: &mut Self| DVec3::new(maker.dice.within(-180.0, 180.0), maker.dice.within(-180.0, 180.0), 0.0);
+        let turn =
+            |maker: &mut Self| DVec3::new(maker.dice.within(-180.0, 180.0), maker.dice.within(-180.0, 180.0), 0.0);
         let rotations = self.option(|maker| Data::inline((0..count).map(|_| turn(maker)).collect::<Vec<_>>()));
         let scales = match self.dice.one_in(2) {
             true => Sizes::Same(self.factor()),
