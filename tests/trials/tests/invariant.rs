@@ -2,7 +2,7 @@
 //!
 //! Sizes and turns change how numbers round, so that no picture can stay the same to the bit. What holds is this: a color
 //! changes by rounding only, unless the place that it was looked at is on an edge, of a thing, a shadow, a texture or a
-//! reflection; and there, moving the picture by a hundred-thousandth of a pixel changes it, too. So a pixel that differs
+//! reflection; and there, moving the picture by a ten-millionth of a pixel changes it, too. So a pixel that differs
 //! is excused only if the unchanged scene has an edge there, as the pictures moved a little show.
 
 use durer::imaging::Image;
@@ -13,10 +13,10 @@ use durer_trials::{Dice, picture};
 
 /// The greatest difference by rounding: of a component, or of a component's own size. Sixteen scales of noise, bright
 /// highlights and four reflections lie between the last bit and this.
-const ROUNDING: f32 = 2e-4;
+const ROUNDING: f32 = 2e-5;
 /// What is on an edge changes if moved by this part of a pixel.
-const BESIDE: f64 = 1e-5;
-const SEEDS: u64 = 60;
+const BESIDE: f64 = 1e-7;
+const SEEDS: u64 = 400;
 
 /// A scene that looks the same wherever the edge of a decision is not: no threshold of weights, of contrast.
 fn sample(seed: u64) -> Scene {
@@ -74,12 +74,13 @@ fn changed(scene: &Scene, before: &Image, after: &Image) -> Vec<usize> {
 /// Fails for all seeds of which a scene looks other than before.
 fn looks_the_same(what: &str, change: impl Fn(Scene, u64) -> Scene) {
     let mut wrong = Vec::new();
-    let mut colors = 0;
+    let (mut colors, mut excused) = (0, 0);
     for seed in 0..SEEDS {
         let scene = sample(seed);
         let before = render(&scene);
         colors += usize::from(before.pixels.iter().any(|pixel| differ(*pixel, before.pixels[0])));
         let after = render(&change(scene.clone(), seed));
+        excused += before.pixels.iter().zip(&after.pixels).filter(|(a, b)| differ(**a, **b)).count();
         let changed = changed(&scene, &before, &after);
         if let Some(&at) = changed.first() {
             wrong.push(format!(
@@ -92,6 +93,7 @@ fn looks_the_same(what: &str, change: impl Fn(Scene, u64) -> Scene) {
     }
     assert!(colors > SEEDS as usize * 3 / 4, "only {colors} pictures show anything");
     assert!(wrong.is_empty(), "{what}: {wrong:#?}");
+    assert!(excused < SEEDS as usize / 4, "{what}: {excused} pixels differ: edges should be met but seldom");
 }
 
 #[test]
@@ -119,7 +121,7 @@ fn names_do_not_matter_to_the_bit() {
     }
 }
 
-/// What tells apart must be able to: a tenth of a percent of size is seen.
+/// The comparison can fail: an eye moved by a hundredth is seen.
 #[test]
 fn other_changes_are_seen() {
     let seen = (0..SEEDS).filter(|&seed| {

@@ -16,7 +16,8 @@ fn what_asks_for_more_than_it_may_is_refused_before_it_is_built() {
     refused("memory=10KiB", "of memory, but only 10 KiB of memory are allowed");
     refused("scene=100", "but only 100 bytes of files are allowed");
     refused("values=10", "more than 10 values");
-    refused("nesting=3", "nested more than 3 levels deep");
+    workshop.fails("check room.yaml --limits nesting=3", 3, "nested more than 3 levels deep");
+    workshop.fails("check room.yaml --limits nesting=3", 3, "`--limits nesting=200`");
     workshop.fails("render room.yaml --width 300 --limits pixels=50000", 3, "`--limits pixels=60000`");
     workshop.fails("explain room.yaml --pixel 1,1 --limits pixels=3", 3, "`--limits pixels=384`");
     workshop.fails("heatmap room.yaml --limits pixels=3", 3, "`--limits pixels=384`");

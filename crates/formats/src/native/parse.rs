@@ -161,7 +161,11 @@ impl Builder<'_> {
 
     fn too_deep(&self, span: Span) -> Result<(), Stop> {
         let message = format!("nested more than {} levels deep", self.deepest());
-        stop(span, &message, "no scene needs this: is a bracket missing?")
+        let help = match self.limits.max_nesting >= 200 {
+            true => "no scene needs this: is a bracket missing?",
+            false => "is a bracket missing? If you trust this scene, raise the limit, up to `--limits nesting=200`",
+        };
+        stop(span, &message, help)
     }
 
     fn alias(&mut self, id: usize, span: Span) -> Result<(), Stop> {
@@ -179,7 +183,9 @@ impl Builder<'_> {
 
     fn too_many(&self, span: Span) -> Result<(), Stop> {
         let message = format!("this file unfolds to more than {} values", self.limits.max_values);
-        stop(span, &message, "aliases count as often as they are used")
+        let help =
+            "aliases count as often as they are used; if you trust this scene, raise the limit: `--limits values=…`";
+        stop(span, &message, help)
     }
 
     fn close(&mut self, end: Span) -> Result<(), Stop> {

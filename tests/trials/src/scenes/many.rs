@@ -30,12 +30,17 @@ impl Maker<'_, '_> {
         let normals = (0..each(0)).map(|_| self.direction().as_vec3().to_array()).collect();
         let uvs = (0..each(1)).map(|_| [self.offset(), self.offset()].map(|x| x.clamp(-1e6, 1e6))).collect();
         let colors = (0..each(2)).map(|_| self.color()).collect();
-        let triangles = self.some(8, |maker| {
-            [maker.dice.below(count), maker.dice.below(count), maker.dice.below(count)].map(|vertex| vertex as u32)
-        });
+        let vertex = |maker: &mut Self| maker.dice.below(count) as u32;
+        let triangles = match self.temper {
+            // No triangle twice.
+            Temper::Everyday => (2..count as u32).map(|at| [at - 2, at - 1, at]).collect(),
+            Temper::Extreme => self.some(8, |maker| [vertex(maker), vertex(maker), vertex(maker)]),
+        };
         let parts = match self.dice.one_in(3) {
-            true => vec![MeshPart { name: None, first: 0, count: 1, material: self.option(Maker::material_id) }],
-            false => Vec::new(),
+            true if !triangles.is_empty() => {
+                vec![MeshPart { name: None, first: 0, count: 1, material: self.option(Maker::material_id) }]
+            }
+            true | false => Vec::new(),
         };
         let origin = if self.dice.one_in(4) { self.point() } else { DVec3::ZERO };
         let data = MeshData { origin, positions, triangles, normals, uvs, colors, parts };
