@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 pub(crate) const USAGE: &str = "  \
-  fuzz [--seconds N] [TARGET ...]   try made-up input, 30 seconds (or N) for each target (or only these)";
+  fuzz [--seconds N] [TARGET ...]
+                            try made-up input: each target, or only these, for 30 seconds or N";
 
 /// The instrumentation of cargo-fuzz: the fuzzer learns which branches were taken and what was compared with what.
 /// Overflow and failed assertions count as findings.
