@@ -7,6 +7,14 @@ use durer_scene::CheckedScene;
 /// Finds out whether a scene keeps those limits that bound rendering: pixels, samples, primitives and memory. Loading has
 /// kept those that bound files; the time is for the host to keep, by [`Progress::stop`](crate::Progress::stop).
 ///
+/// ```
+/// let limits = durer::Limits::untrusted();
+/// let loaded = durer::load_str("picture: {width: 9000, height: 9000}", "found.yaml", &durer::NoAssets, &limits)?;
+/// let exceeded = durer::admit(&loaded.scene, &limits).unwrap_err();
+/// assert_eq!(exceeded[0].to_string(), "it asks for 81000000 pixels, but only 4000000 pixels are allowed");
+/// # Ok::<(), durer::Diagnostics>(())
+/// ```
+///
 /// # Errors
 ///
 /// All limits that the scene exceeds.

@@ -70,7 +70,9 @@ impl Maker<'_, '_> {
     /// Any power of ten between the smallest and the largest size, and what is between them.
     fn magnitude(&mut self, least: i32, most: i32) -> f64 {
         let exponent = least + self.dice.below((most - least) as usize) as i32;
-        10_f64.powi(exponent) * self.dice.within(1.0, 10.0)
+        // Powers by the platform's own functions are not the same on every machine; numbers that are read are.
+        let power = format!("1e{exponent}").parse().unwrap_or(1.0);
+        self.dice.within(1.0, 10.0) * power
     }
 
     /// A coordinate.

@@ -11,7 +11,7 @@ pub fn scaled(mut scene: Scene, factor: f64) -> Scene {
     let map = DAffine3::from_scale(DVec3::splat(factor));
     scene.objects = vec![around(scene.objects, TransformStep::Scale(DVec3::splat(factor)))];
     scene.camera =
-        scene.camera.map(|camera| Camera { projection: bigger(camera.projection, factor), ..seen(camera, &map) });
+        scene.camera.map(|camera| Camera { projection: bigger(camera.projection, factor), ..seen(&camera, &map) });
     scene.lights = scene.lights.into_iter().map(|light| brighter(lit(light, &map), factor)).collect();
     scene.fog = scene.fog.map(|fog| match fog {
         Fog::Exponential { color, distance } => Fog::Exponential { color, distance: distance * factor },
@@ -27,7 +27,7 @@ pub fn scaled(mut scene: Scene, factor: f64) -> Scene {
 pub fn turned(mut scene: Scene, axis: DVec3, degrees: f64) -> Scene {
     let map = DAffine3::from_mat3(rotation(axis.normalize(), degrees.to_radians()));
     scene.objects = vec![around(scene.objects, TransformStep::Rotate { axis, degrees })];
-    scene.camera = scene.camera.map(|camera| seen(camera, &map));
+    scene.camera = scene.camera.map(|camera| seen(&camera, &map));
     scene.lights = scene.lights.into_iter().map(|light| lit(light, &map)).collect();
     scene
 }
@@ -101,7 +101,7 @@ fn bigger(projection: Projection, factor: f64) -> Projection {
     }
 }
 
-fn seen(camera: Camera, map: &DAffine3) -> Camera {
+fn seen(camera: &Camera, map: &DAffine3) -> Camera {
     Camera {
         position: map.transform_point3(camera.position),
         look_at: map.transform_point3(camera.look_at),
