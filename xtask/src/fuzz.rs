@@ -30,6 +30,9 @@ const FLAGS: [&str; 10] = [
 const MOST_SECONDS: u32 = 10;
 const MOST_MEMORY: u32 = 2048;
 
+/// So many lines of what the fuzzer says of a finding are shown.
+const MOST_LINES: usize = 60;
+
 /// What is to be done.
 struct Plan<'a> {
     seconds: u32,
@@ -83,7 +86,6 @@ fn host() -> Result<String, String> {
 }
 
 fn fuzz(folder: &Path, built: &Path, target: &str, seconds: u32) -> Result<(), String> {
-    println!("{target}: {seconds} seconds");
     let (corpus, findings) = (folder.join("corpus").join(target), folder.join("artifacts").join(target));
     for folder in [&corpus, &findings] {
         std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -92,10 +94,22 @@ fn fuzz(folder: &Path, built: &Path, target: &str, seconds: u32) -> Result<(), S
     command.arg(&corpus).args(seeds(folder, target));
     command.arg(format!("-artifact_prefix={}/", findings.display()));
     command.args([format!("-max_total_time={seconds}"), format!("-timeout={MOST_SECONDS}")]);
-    command.args([format!("-rss_limit_mb={MOST_MEMORY}"), "-max_len=8192".to_owned(), "-verbosity=0".to_owned()]);
-    shell::run(&mut command).map_err(|error| {
-        format!("{error}\nmend it, and move the file from {} to fuzz/regressions/{target}", findings.display())
-    })
+    command.args([format!("-rss_limit_mb={MOST_MEMORY}"), "-max_len=8192".to_owned()]);
+    let output = command.output().map_err(|error| format!("{target}: {error}"))?;
+    // Thousands of lines, of which one tells, unless something was found.
+    let told = String::from_utf8_lossy(&output.stderr);
+    if output.status.success() {
+        let done = told.lines().find(|line| line.contains("DONE")).unwrap_or_default();
+        println!("{target}: {}", done.split_whitespace().collect::<Vec<_>>().join(" "));
+        return Ok(());
+    }
+    let lines: Vec<&str> = told.lines().collect();
+    let end = lines[lines.len().saturating_sub(MOST_LINES)..].join("\n");
+    let folder = findings.display();
+    Err(format!(
+        "{target}: {}\n{end}\nmend it, and move the file from {folder} to fuzz/regressions/{target}",
+        output.status
+    ))
 }
 
 /// The folders that the fuzzer begins with beside what it has gathered.
