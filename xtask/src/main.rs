@@ -1,9 +1,11 @@
-//! The project's own chores: `cargo xtask bless`, `gallery`, `reproduce`, `bench`. They use durer; they are not part of it.
+//! The project's own chores: `cargo xtask bless`, `gallery`, `reproduce`, `fuzz`, `bench`. They use durer; they are not part
+//! of it.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "programs may print")]
 
 mod bench;
 mod bless;
+mod fuzz;
 mod gallery;
 mod reproduce;
 mod shell;
@@ -41,8 +43,9 @@ fn run(words: &[&str]) -> Result<(), String> {
         ["bless", "--check"] => bless::check(),
         ["gallery", names @ ..] => gallery::run(names),
         ["reproduce", options @ ..] => reproduce::run(options),
+        ["fuzz", rest @ ..] => fuzz::run(rest),
         [] | ["help" | "--help" | "-h"] => {
-            println!("{USAGE}\n{}", bench::USAGE);
+            println!("{}", usage());
             Ok(())
         }
         ["bench", rest @ ..] => bench::run(rest).unwrap_or_else(|| unknown(words)),
@@ -51,5 +54,9 @@ fn run(words: &[&str]) -> Result<(), String> {
 }
 
 fn unknown(words: &[&str]) -> Result<(), String> {
-    Err(format!("unknown chore `{}`\n\n{USAGE}\n{}", words.join(" "), bench::USAGE))
+    Err(format!("unknown chore `{}`\n\n{}", words.join(" "), usage()))
+}
+
+fn usage() -> String {
+    [USAGE, fuzz::USAGE, bench::USAGE].join("\n")
 }

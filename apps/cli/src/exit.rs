@@ -10,10 +10,11 @@ Exit codes:
     0  everything went well
     1  `compare` found a difference beyond the threshold
     2  the command line is wrong
-    3  the scene is wrong, or a file that it names
+    3  the scene is wrong, or a file that it names, or it asks for more than its limits
     4  a file cannot be read or written
     5  the system refused something else, such as starting threads
-  130  interrupted by Ctrl-C, SIGTERM or SIGHUP; `render` has saved what was finished";
+  130  interrupted by Ctrl-C, SIGTERM, SIGHUP or the time limit; `render` has saved what
+       was finished";
 
 /// How the program ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

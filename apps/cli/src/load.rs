@@ -4,8 +4,9 @@ use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::{Phase, Show};
 use clap::Args;
-use durer::{CheckedScene, CompiledScene, Diagnostics, LoadOptions, Loaded, SimdLevel, Sources};
+use durer::{CheckedScene, CompiledScene, Diagnostics, Exceeded, Limits, LoadOptions, Loaded, SimdLevel, Sources};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Which scene, and what it may read.
 #[derive(Args, Debug)]
@@ -17,6 +18,11 @@ pub(crate) struct SceneArgs {
     /// Let the scene read files in this folder too, not only in its own (may be repeated)
     #[arg(long, value_name = "DIR")]
     allow_path: Vec<PathBuf>,
+
+    /// How much the scene may ask for: `untrusted` for scenes of strangers, KEY=VALUE for single limits; the keys are
+    /// time, memory, pixels, samples, primitives, textures, scene, file, files, values and nesting
+    #[arg(long, value_name = "LIMITS", value_parser = limits, default_value = "")]
+    limits: Limits,
 }
 
 impl SceneArgs {
@@ -56,20 +62,44 @@ impl SceneArgs {
         Ok(durer::load_file(&self.path, &self.options()))
     }
 
-    /// Makes a loaded scene ready for rays.
-    pub(crate) fn compile(&self, scene: &CheckedScene, show: Show) -> CompiledScene {
+    /// Makes a loaded scene ready for rays, unless it asks for more than it may.
+    pub(crate) fn compile(&self, scene: &CheckedScene, show: Show) -> Result<CompiledScene, Failure> {
         self.compile_for(scene, SimdLevel::best(), show)
     }
 
-    /// Makes a loaded scene ready for rays, with this instruction set.
-    pub(crate) fn compile_for(&self, scene: &CheckedScene, simd: SimdLevel, show: Show) -> CompiledScene {
+    /// As [`SceneArgs::compile`], for this instruction set.
+    pub(crate) fn compile_for(
+        &self,
+        scene: &CheckedScene,
+        simd: SimdLevel,
+        show: Show,
+    ) -> Result<CompiledScene, Failure> {
+        self.admit(scene)?;
         let _phase = Phase::begin(format!("building {}", self.name()), show);
-        durer::compile_for(scene, simd)
+        Ok(durer::compile_for(scene, simd))
+    }
+
+    /// Finds out whether the scene asks for more than it may.
+    pub(crate) fn admit(&self, scene: &CheckedScene) -> Result<(), Failure> {
+        durer::admit(scene, &self.limits).map_err(|exceeded| {
+            let line = |one: &Exceeded| format!("{one}\n  help: {}", one.help());
+            let lines: Vec<String> = exceeded.iter().map(line).collect();
+            Failure::Message(Exit::Scene, format!("{}: {}", self.path.display(), lines.join("\n       ")))
+        })
+    }
+
+    /// How long the run may take.
+    pub(crate) fn time_limit(&self) -> Option<Duration> {
+        Some(self.limits.max_seconds).filter(|seconds| *seconds < u64::MAX).map(Duration::from_secs)
     }
 
     fn options(&self) -> LoadOptions {
-        LoadOptions { allowed_folders: self.allow_path.clone(), ..LoadOptions::default() }
+        LoadOptions { allowed_folders: self.allow_path.clone(), limits: self.limits.clone() }
     }
+}
+
+fn limits(text: &str) -> Result<Limits, String> {
+    if text.is_empty() { Ok(Limits::default()) } else { text.parse() }
 }
 
 /// Finds out whether a file can be opened, so that one that cannot has an exit code of its own.

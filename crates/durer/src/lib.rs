@@ -15,12 +15,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod admit;
 mod files;
 
+pub use admit::admit;
 pub use durer_formats::{
-    AssetError, Assets, Diagnostic, Diagnostics, FolderAssets, Limits, LoadOptions, Loaded, MemoryAssets, NoAssets,
-    Related, Severity, Sources, json_schema, load_bytes, load_file, load_str, reference_markdown, scene_fingerprint,
-    to_yaml,
+    AssetError, Assets, Diagnostic, Diagnostics, Exceeded, FolderAssets, Limit, Limits, LoadOptions, Loaded,
+    MemoryAssets, NoAssets, Related, Severity, Sources, json_schema, load_bytes, load_file, load_str,
+    reference_markdown, scene_fingerprint, to_yaml,
 };
 pub use durer_imaging as imaging;
 pub use durer_math as math;
@@ -28,7 +30,7 @@ pub use durer_render::{
     BadSample, Bounds, CompiledScene, Contribution, Element, Film, GeometryMemory, HeatMap, HitExplanation,
     HoleExplanation, LightExplanation, NotTraced, PixelExplanation, Progress, RayCounts, RayExplanation, RayKind,
     Region, RenderError, RenderOptions, SampleExplanation, SimdLevel, Source, compile, compile_for, explain, heatmap,
-    render, render_on, with_threads,
+    memory_needed, render, render_on, with_threads,
 };
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// For each package of ours, those of ours that it may name.
-const MAY_IMPORT: [(&str, &[&str]); 10] = [
+const MAY_IMPORT: [(&str, &[&str]); 11] = [
     ("durer-math", &[]),
     ("durer-imaging", &["durer-math"]),
     ("durer-geometry", &["durer-math"]),
@@ -16,7 +16,8 @@ const MAY_IMPORT: [(&str, &[&str]); 10] = [
     ("durer", &["durer-math", "durer-imaging", "durer-geometry", "durer-scene", "durer-formats", "durer-render"]),
     ("durer-cli", &["durer"]),
     ("durer-web", &["durer"]),
-    ("xtask", &["durer"]),
+    ("durer-trials", &["durer"]),
+    ("xtask", &["durer", "durer-trials"]),
 ];
 
 /// What tests, and only tests, may import beside that: package and imported package.

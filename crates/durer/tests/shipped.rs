@@ -61,3 +61,17 @@ fn every_scene_in_readme_and_guide_loads() {
     }
     assert!(count > 10, "only {count} snippets were found");
 }
+
+#[test]
+fn the_guide_tells_the_limits() {
+    let guide = std::fs::read_to_string(root().join("docs/guide.md")).unwrap();
+    let (all, few) = (durer::Limits::default(), durer::Limits::untrusted());
+    for limit in durer::Limit::ALL {
+        let [starts, ends] = [
+            format!("| `{}` |", limit.key()),
+            format!("| {} | {} |", limit.shown(all.get(*limit)), limit.shown(few.get(*limit))),
+        ];
+        let row = guide.lines().find(|line| line.starts_with(&starts)).unwrap_or_else(|| panic!("no row {starts}"));
+        assert!(row.ends_with(&ends), "{row} should end with {ends}");
+    }
+}

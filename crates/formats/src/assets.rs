@@ -5,7 +5,10 @@
 
 pub(crate) mod memory;
 
+use crate::{Exceeded, Limit, Limits};
+use std::cell::Cell;
 use std::fmt;
+use std::fs::Metadata;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
@@ -27,8 +30,10 @@ pub enum AssetError {
     NotFound,
     /// It lies outside the folders that may be read; the path it leads to.
     Outside(PathBuf),
-    /// It is larger than this many bytes.
+    /// It is larger than allowed: so many bytes, or more.
     TooLarge(u64),
+    /// With it, the scene asks for more than it may.
+    Exceeded(Exceeded),
     /// It is not a file, but a folder, a device or the like.
     NotAFile,
     /// No files can be read here.
@@ -46,7 +51,20 @@ impl AssetError {
                 let folder = path.parent().unwrap_or(path).display();
                 Some(format!("if you trust this scene, allow the folder: `--allow-path {folder}`"))
             }
+            AssetError::Exceeded(exceeded) => Some(exceeded.help()),
             AssetError::TooLarge(_) | AssetError::NotAFile | AssetError::Unavailable | AssetError::Io(_) => None,
+        }
+    }
+}
+
+impl AssetError {
+    /// Says which limit it is that a file is too large for.
+    pub(crate) fn with_limit(self, limit: Limit, limits: &Limits) -> AssetError {
+        match self {
+            AssetError::TooLarge(bytes) => {
+                AssetError::Exceeded(Exceeded { limit, asked: Some(bytes), allowed: limits.get(limit) })
+            }
+            other => other,
         }
     }
 }
@@ -56,7 +74,8 @@ impl fmt::Display for AssetError {
         match self {
             AssetError::NotFound => write!(f, "there is no such file"),
             AssetError::Outside(_) => write!(f, "it lies outside the scene's folder"),
-            AssetError::TooLarge(limit) => write!(f, "the file is larger than {limit} bytes"),
+            AssetError::TooLarge(bytes) => write!(f, "its {bytes} bytes are too many"),
+            AssetError::Exceeded(exceeded) => write!(f, "{exceeded}"),
             AssetError::NotAFile => write!(f, "this is not a file"),
             AssetError::Unavailable => write!(f, "no files can be read here"),
             AssetError::Io(error) => write!(f, "{error}"),
@@ -76,8 +95,50 @@ impl Assets for NoAssets {
     }
 }
 
+/// The files of others, as far as the limits go: for each file, for all together, and for memory, since files are read
+/// whole.
+pub(crate) struct Metered<'a> {
+    inner: &'a dyn Assets,
+    limits: &'a Limits,
+    /// Bytes read so far.
+    taken: Cell<u64>,
+}
+
+impl<'a> Metered<'a> {
+    /// Nothing has been read.
+    pub(crate) fn new(inner: &'a dyn Assets, limits: &'a Limits) -> Metered<'a> {
+        Metered { inner, limits, taken: Cell::new(0) }
+    }
+}
+
+impl Assets for Metered<'_> {
+    fn read(&self, relative: &str, max_bytes: u64) -> Result<Vec<u8>, AssetError> {
+        let taken = self.taken.get();
+        let left = |limit: Limit| (self.limits.get(limit).saturating_sub(taken), limit, taken);
+        let file = (self.limits.max_file_bytes, Limit::File, 0);
+        let [a, b, c] = [file, left(Limit::Files), left(Limit::Memory)];
+        let (least, limit, taken) =
+            [b, c].into_iter().fold(a, |least, other| if other.0 < least.0 { other } else { least });
+        match self.inner.read(relative, max_bytes.min(least)) {
+            Ok(bytes) => {
+                self.taken.set(self.taken.get().saturating_add(bytes.len() as u64));
+                Ok(bytes)
+            }
+            Err(AssetError::TooLarge(bytes)) => {
+                let asked = Some(taken.saturating_add(bytes));
+                Err(AssetError::Exceeded(Exceeded { limit, asked, allowed: self.limits.get(limit) }))
+            }
+            Err(error) => Err(error),
+        }
+    }
+}
+
 /// The files in and below the scene's folder, and in folders that were allowed by name. What matters is where a file
 /// really lies: `..` and links that lead out are refused.
+///
+/// A file is looked at before it is opened, since opening a pipe or a device may wait forever; once it is open, that it is
+/// still the one that was looked at and still lies where it lay. Who can change the folder twice in the moment between
+/// could get past that; where others can write into the scene's folder, copy it first. Hard links are files of the folder.
 #[derive(Clone, Debug)]
 pub struct FolderAssets {
     folder: PathBuf,
@@ -116,7 +177,13 @@ impl Assets for FolderAssets {
         if !self.may_read(&file) {
             return Err(AssetError::Outside(file));
         }
-        read_whole(&file, max_bytes)
+        let bytes = read_whole(&file, max_bytes)?;
+        // Someone may have put a link in the place of the file, or of a folder on the way to it, just before it was opened.
+        match file.canonicalize() {
+            Ok(still) if still == file => Ok(bytes),
+            Ok(other) => Err(AssetError::Outside(other)),
+            Err(error) => Err(AssetError::Io(error)),
+        }
     }
 }
 
@@ -128,7 +195,7 @@ pub(crate) fn read_whole(path: &Path, max_bytes: u64) -> Result<Vec<u8>, AssetEr
         return Err(AssetError::NotAFile);
     }
     if about.len() > max_bytes {
-        return Err(AssetError::TooLarge(max_bytes));
+        return Err(AssetError::TooLarge(about.len()));
     }
     let mut bytes = Vec::new();
     // All at once, since growing would copy large files again and again; and where there is too little memory for that,
@@ -136,12 +203,28 @@ pub(crate) fn read_whole(path: &Path, max_bytes: u64) -> Result<Vec<u8>, AssetEr
     let room = usize::try_from(about.len()).unwrap_or(usize::MAX).saturating_add(1);
     bytes.try_reserve_exact(room).map_err(|_| AssetError::Io(io::ErrorKind::OutOfMemory.into()))?;
     let file = std::fs::File::open(path).map_err(AssetError::Io)?;
+    // Another may have taken its place.
+    if !file.metadata().is_ok_and(|opened| is_same(&about, &opened)) {
+        return Err(AssetError::NotAFile);
+    }
     // The file may grow while it is read. One byte more than allowed is enough to see that it is too many.
     file.take(max_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(AssetError::Io)?;
     if bytes.len() as u64 > max_bytes {
-        return Err(AssetError::TooLarge(max_bytes));
+        return Err(AssetError::TooLarge(bytes.len() as u64));
     }
     Ok(bytes)
+}
+
+/// True if both are about the same file, as far as the system tells.
+#[cfg(unix)]
+fn is_same(one: &Metadata, other: &Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    (one.dev(), one.ino()) == (other.dev(), other.ino())
+}
+
+#[cfg(not(unix))]
+fn is_same(one: &Metadata, other: &Metadata) -> bool {
+    one.file_type() == other.file_type()
 }
 
 /// The folder of a file without one is the current one.

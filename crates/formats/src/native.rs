@@ -26,7 +26,7 @@ mod record;
 mod reference;
 mod schema;
 mod settings;
-mod suggest;
+pub(crate) mod suggest;
 mod syntax;
 mod tables;
 mod textures;

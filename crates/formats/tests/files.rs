@@ -47,6 +47,43 @@ fn links_that_lead_out_are_refused() {
     assert!(load(&folder, "link.pfm", &LoadOptions::default()).unwrap_err().contains("outside"));
 }
 
+/// Folders that lead out, and what is no file: a pipe would be waited for without end, a device read without end.
+#[cfg(unix)]
+#[test]
+fn links_pipes_and_devices_are_refused() {
+    use std::os::unix::fs::symlink;
+    let outer = tempfile::tempdir().unwrap();
+    let folder = outer.path().join("scene");
+    std::fs::create_dir(&folder).unwrap();
+    std::fs::create_dir(outer.path().join("secrets")).unwrap();
+    std::fs::write(outer.path().join("secrets/a.pfm"), PICTURE).unwrap();
+    std::fs::write(folder.join("good.pfm"), PICTURE).unwrap();
+    symlink("../secrets", folder.join("folder")).unwrap();
+    symlink("good.pfm", folder.join("inside.pfm")).unwrap();
+    symlink("/dev/zero", folder.join("zero.pfm")).unwrap();
+    symlink("loop.pfm", folder.join("loop.pfm")).unwrap();
+    assert!(std::process::Command::new("mkfifo").arg(folder.join("pipe.pfm")).status().unwrap().success());
+    let refused = |image: &str, why: &str| {
+        let message = load(&folder, image, &LoadOptions::default()).unwrap_err();
+        assert!(message.contains(why), "{image}: {message}");
+    };
+    assert!(load(&folder, "inside.pfm", &LoadOptions::default()).is_ok());
+    refused("folder/a.pfm", "outside the scene's folder");
+    refused("folder/missing.pfm", "cannot read");
+    refused("folder/../secrets/a.pfm", "outside the scene's folder");
+    refused("zero.pfm", "outside the scene's folder");
+    refused("loop.pfm", "cannot read");
+    refused("pipe.pfm", "this is not a file");
+    refused("good.pfm/", "cannot read");
+    refused("good.pfm/../../secrets/a.pfm", "outside the scene's folder");
+    refused("..\\\\secrets\\\\a.pfm", "no such file");
+    refused("%2e%2e/secrets/a.pfm", "no such file");
+    refused("a\\0b.pfm", "cannot read");
+    std::fs::rename(folder.join("pipe.pfm"), folder.join("pipe.yaml")).unwrap();
+    let message = load_file(folder.join("pipe.yaml"), &LoadOptions::default()).unwrap_err().to_string();
+    assert!(message.contains("not a file"), "{message}");
+}
+
 #[test]
 fn a_missing_scene_is_said_so() {
     let message = load_file("no/such/scene.yaml", &LoadOptions::default()).unwrap_err().to_string();

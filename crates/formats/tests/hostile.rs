@@ -83,8 +83,30 @@ fn all_kinds_of_line_ends_and_marks_are_read() {
 }
 
 #[test]
+fn numbers_without_measure_are_refused() {
+    let of_radius = |number: &str| format!("objects: [sphere: {{radius: {number}}}]");
+    for number in ["1e999999999", "-1e999999999", &"9".repeat(1_000_000), "1e309", "0x1p99999"] {
+        let shown = &number[..number.len().min(20)];
+        let diagnostics = refused(&of_radius(number));
+        assert_eq!(diagnostics.list.len(), 1, "{shown}: {diagnostics}");
+        assert!(diagnostics.to_string().len() < 100_000, "{shown}");
+    }
+    refused_because(&of_radius("1e-999999999"), "radius must be above 0");
+    refused_because(&of_radius(&format!("0.{}1", "0".repeat(1_000_000))), "radius must be above 0");
+    refused_because("picture: {width: 99999999999999999999, height: -7}", "expected");
+}
+
+#[test]
 fn what_is_not_text_is_refused() {
-    for bytes in [&b"objects: \xff\xfe"[..], b"\x00", b"a: b\0c", b"\xff", b"PK\x03\x04\x9f\x00"] {
+    for bytes in [
+        &b"objects: \xff\xfe"[..],
+        b"\x00",
+        b"a: b\0c",
+        b"\xff",
+        b"PK\x03\x04\x9f\x00",
+        b"\xff\xfeo\0b\0j\0:\0",
+        b"\0\0\0o",
+    ] {
         let diagnostics = load_bytes(bytes, "binary", &NoAssets, &Limits::default()).unwrap_err();
         assert!(!diagnostics.to_string().is_empty());
     }

@@ -117,10 +117,10 @@ fn files_that_cannot_be_read_are_said_so() {
     std::fs::create_dir(folder.path().join("b.stl")).unwrap();
     assert!(load(&folder.path().join("b.stl")).unwrap_err().to_string().contains("not a file"));
     write(folder.path(), &[("c.stl", &[0; 1000]), ("d.stl", b"")]);
-    let limits = Limits { max_model_bytes: 999, ..Limits::default() };
+    let limits = Limits { max_file_bytes: 999, ..Limits::default() };
     let options = LoadOptions { limits, ..LoadOptions::default() };
     let large = load_file(folder.path().join("c.stl"), &options).unwrap_err().to_string();
-    assert!(large.contains("larger than 999 bytes"), "{large}");
+    assert!(large.contains("1000 bytes of files, but only 999 bytes") && large.contains("--limits file="), "{large}");
     assert!(load(&folder.path().join("d.stl")).unwrap_err().to_string().contains("this file is empty"));
 }
 

@@ -55,7 +55,8 @@ impl World {
                 planes[i / 4].set(i % 4, id, normal, point);
             }
         }
-        let bounds = boxes.iter().copied().fold(Bounds::EMPTY, Bounds::union);
+        // Solids with half-spaces may have no end.
+        let bounds = boxes.iter().copied().filter(|one| one.size().is_finite()).fold(Bounds::EMPTY, Bounds::union);
         World { bvh, planes, bounded_ids, bounds, level: plan.simd.level(), primitives }
     }
 
@@ -64,7 +65,7 @@ impl World {
         &self.primitives
     }
 
-    /// A box around all primitives but the infinite planes.
+    /// A box around all primitives but those without end: planes, and solids of half-spaces.
     pub fn bounds(&self) -> Bounds {
         self.bounds
     }

@@ -65,6 +65,22 @@ impl Alpha {
 }
 
 impl Bitmap {
+    /// Bytes that the pixels take.
+    pub fn memory(&self) -> u64 {
+        let texels = match &self.texels {
+            Texels::U8(texels) => size_of_val(texels.as_slice()),
+            Texels::U16(texels) => size_of_val(texels.as_slice()),
+            Texels::F32(texels) => size_of_val(texels.as_slice()),
+        };
+        let alphas = match &self.alpha {
+            Some(Alpha::U8(numbers)) => size_of_val(numbers.as_slice()),
+            Some(Alpha::U16(numbers)) => size_of_val(numbers.as_slice()),
+            Some(Alpha::F32(numbers)) => size_of_val(numbers.as_slice()),
+            None => 0,
+        };
+        (texels + alphas) as u64
+    }
+
     /// The picture in linear light, `transfer` being how the file's whole numbers were made from it. Floating-point
     /// texels are linear already and stay as they are.
     pub fn to_image(&self, transfer: Transfer) -> Image {

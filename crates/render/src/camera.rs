@@ -124,6 +124,8 @@ fn frame(bounds: Bounds, aspect: f64) -> scene::Camera {
         true => (DVec3::ZERO, 2.0),
         false => (bounds.center(), bounds.size().length() * 0.5),
     };
+    // The eye must not be where it looks at, also if what it sees is a point, or is far away for its size.
+    let radius = radius.max(1e-9).max(1e-12 * center.abs().max_element());
     // The sphere around the bounds touches the edges of the view where its sine, not its tangent, is radius / distance.
     let distance = radius * (1.0 + 1.0 / (half_tangent * half_tangent)).sqrt();
     scene::Camera {
@@ -201,6 +203,15 @@ mod tests {
         assert!(camera.project_line([behind(1.0), behind(2.0)]).is_none());
         let [before, cut] = camera.project_line([behind(-2.0), behind(2.0)]).expect("half of it");
         assert!((before.distance - 2.0).abs() < 1e-12 && cut.distance > 0.0 && cut.distance < 0.01);
+    }
+
+    #[test]
+    fn an_undescribed_camera_of_a_point_has_a_direction() {
+        for point in [DVec3::ZERO, DVec3::X * 1e12, DVec3::new(1e-9, -1e12, 7.0)] {
+            let camera = Camera::compile(None, Bounds::of_points([point]), 4, 3);
+            let direction = camera.ray(DVec2::new(1.0, 2.0)).direction;
+            assert!((direction.length() - 1.0).abs() < 1e-12, "{direction}");
+        }
     }
 
     #[test]

@@ -17,6 +17,7 @@ mod integrators;
 mod lights;
 mod materials;
 mod media;
+mod memory;
 mod observer;
 mod pixel;
 mod reconstruct;
@@ -33,5 +34,6 @@ pub use explain::{
 };
 pub use film::{BadSample, Film, Region};
 pub use heatmap::{HeatMap, heatmap};
+pub use memory::memory_needed;
 pub use observer::{NotTraced, RayCounts, RayKind, Source};
 pub use schedule::{Progress, RenderError, RenderOptions, render, render_on, with_threads};

@@ -3,8 +3,9 @@
 use durer_math::{DVec3, Rgb, functions::cos};
 use durer_scene::{Falloff, LightKind};
 
-/// A lamp seen from within a hair's breadth is bright, not infinite.
-const BRIGHTEST: f64 = 1e24;
+/// A lamp seen from within a hair's breadth is bright, not infinite: as bright as the strongest is without falloff. All that
+/// materials make of it is then within single precision.
+const BRIGHTEST: f32 = 1e12;
 
 /// A light, compiled.
 #[derive(Clone, Copy, Debug)]
@@ -88,7 +89,10 @@ impl Light {
         let distance = squared.sqrt();
         let light = match falloff {
             Falloff::None => self.power,
-            Falloff::InverseSquare => self.power * ((1.0 / squared).min(BRIGHTEST) as f32),
+            Falloff::InverseSquare => {
+                let near = self.power * ((1.0 / squared).min(1e24) as f32);
+                near.map(|component| component.min(BRIGHTEST))
+            }
         };
         Some(Arriving { direction: to_light * (1.0 / distance), distance, light })
     }

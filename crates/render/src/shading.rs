@@ -175,7 +175,9 @@ impl Textured<'_> {
                 let weights = self.scene.world.vertex_weights(self.surface.point, self.hit)?;
                 let corners = data.triangles[(self.hit.crossing.part - origin.first_part) as usize]
                     .map(|vertex| data.colors[vertex as usize]);
-                let weighed = corners.into_iter().zip(weights).map(|(color, weight)| color * weight as f32);
+                // In triangles as thin as the rounding of a point, weights may be anything.
+                let weights = weights.map(|weight| weight.clamp(0.0, 1.0) as f32);
+                let weighed = corners.into_iter().zip(weights).map(|(color, weight)| color * weight);
                 Some(weighed.fold(Rgb::BLACK, |sum, color| sum + color))
             }
             Colors::Particles(colors) => colors.get(self.scene.world.particle_of(self.hit)? as usize).copied(),

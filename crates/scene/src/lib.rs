@@ -5,6 +5,7 @@
 
 mod camera;
 mod check;
+mod count;
 mod data;
 mod light;
 mod material;
@@ -17,6 +18,7 @@ mod transform;
 
 pub use camera::{Camera, Projection};
 pub use check::{CheckedScene, Place, Problem, Step};
+pub use count::Primitives;
 pub use data::{Data, DataFile, Instances, Sizes};
 pub use light::{Falloff, Light, LightKind};
 pub use material::{Attenuation, Material};

@@ -14,6 +14,13 @@ pub struct Picture {
     pub transfer: Transfer,
 }
 
+impl Picture {
+    /// Width times height.
+    pub fn pixels(&self) -> u64 {
+        u64::from(self.width) * u64::from(self.height)
+    }
+}
+
 impl Default for Picture {
     fn default() -> Picture {
         Picture { width: 640, height: 480, transfer: Transfer::Srgb }

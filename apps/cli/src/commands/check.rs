@@ -1,6 +1,7 @@
 //! `durer check`: is a scene fine, and if not, where?
 
 use crate::exit::{Exit, Failure};
+use crate::interrupt::Interrupt;
 use crate::labels::Shapes;
 use crate::load::SceneArgs;
 use crate::progress::Show;
@@ -28,17 +29,22 @@ pub(crate) struct Arguments {
 
 /// Checks the scene.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    Interrupt::after(arguments.scene.time_limit());
     if arguments.json {
         return run_json(&arguments.scene);
     }
     let scene = arguments.scene.load(Show::Progress)?;
+    arguments.scene.admit(&scene)?;
     output::print(&format!("{}: fine: {}\n", arguments.scene.path.display(), summary(scene.scene())))?;
     Ok(Exit::Fine)
 }
 
 fn run_json(arguments: &SceneArgs) -> Result<Exit, Failure> {
     let (diagnostics, fine) = match arguments.try_load(Show::Progress)? {
-        Ok(loaded) => (loaded.warnings.to_json(), true),
+        Ok(loaded) => {
+            arguments.admit(&loaded.scene)?;
+            (loaded.warnings.to_json(), true)
+        }
         Err(diagnostics) => (diagnostics.to_json(), false),
     };
     let mut report = json!({ "fine": fine });

@@ -6,6 +6,7 @@ mod text;
 mod words;
 
 use crate::exit::{Exit, Failure};
+use crate::interrupt::Interrupt;
 use crate::labels;
 use crate::labels::Shapes;
 use crate::load::SceneArgs;
@@ -57,8 +58,9 @@ struct Explained<'s> {
 
 /// Explains the pixel.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    Interrupt::after(arguments.scene.time_limit());
     let checked = arguments.overrides.apply(arguments.scene.load(Show::Progress)?)?;
-    let compiled = arguments.scene.compile(&checked, Show::Progress);
+    let compiled = arguments.scene.compile(&checked, Show::Progress)?;
     let (x, y) = arguments.pixel;
     let scene = checked.scene();
     let pixel = durer::explain(&compiled, x, y).ok_or_else(|| {

@@ -1,6 +1,7 @@
 //! `durer heatmap`: what each pixel costs, as a picture.
 
 use crate::exit::{Exit, Failure};
+use crate::interrupt::Interrupt;
 use crate::load::SceneArgs;
 use crate::numbers::{short, thousands};
 use crate::overrides::{Overrides, Size};
@@ -11,7 +12,6 @@ use durer::imaging::{ErrorMap, Image, false_color};
 use durer::{CheckedScene, HeatMap, PictureFile, RenderOptions};
 use serde_json::{Value, json};
 use std::path::PathBuf;
-use std::sync::atomic::AtomicBool;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -103,12 +103,13 @@ impl Arguments {
     }
 
     fn count(&self, scene: &CheckedScene) -> Result<HeatMap, Failure> {
-        let never = AtomicBool::new(false);
+        let interrupt = Interrupt::after(self.scene.time_limit());
         durer::with_threads(self.threads.map(usize::from), || {
-            let compiled = self.scene.compile(scene, self.show());
-            let bar = Bar::new(&never, self.show());
+            let compiled = self.scene.compile(scene, self.show())?;
+            let bar = Bar::new(interrupt.stop_flag(), self.show());
             let map = durer::heatmap(&compiled, &RenderOptions::default(), &bar);
             bar.finish();
+            interrupt.stopped()?;
             Ok(map?)
         })?
     }

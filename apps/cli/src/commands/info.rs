@@ -3,6 +3,7 @@
 mod picture;
 
 use crate::exit::{Exit, Failure};
+use crate::interrupt::Interrupt;
 use crate::load::SceneArgs;
 use crate::numbers::{bytes, count, thousands, vector};
 use crate::output;
@@ -37,8 +38,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     if FileFormat::from_path(&arguments.scene.path).is_ok() {
         return picture::run(&arguments.scene.path, arguments.json);
     }
+    Interrupt::after(arguments.scene.time_limit());
     let checked = arguments.scene.load(Show::Progress)?;
-    let compiled = arguments.scene.compile(&checked, Show::Progress);
+    let compiled = arguments.scene.compile(&checked, Show::Progress)?;
     let facts = Facts::of(checked.scene(), &compiled);
     match arguments.json {
         true => output::print_json(&facts.json())?,

@@ -1,9 +1,9 @@
 //! `durer render`: from a scene file to a picture file.
 
-mod interrupt;
 mod report;
 
 use crate::exit::{Exit, Failure};
+use crate::interrupt::Interrupt;
 use crate::load::SceneArgs;
 use crate::overrides::Overrides;
 use crate::progress::{Bar, Show};
@@ -13,7 +13,6 @@ use clap::{Args, ValueEnum};
 use durer::imaging::EncodeOptions;
 use durer::math::Fingerprint;
 use durer::{CheckedScene, Film, PictureFile, Region, RenderError, RenderOptions, SimdLevel};
-use interrupt::Interrupt;
 use report::{Report, Seconds};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -80,6 +79,7 @@ enum StatsFormat {
 
 /// Renders the scene.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    let interrupt = Interrupt::after(arguments.scene.time_limit());
     let path = arguments.output_path();
     let format = target::format_of(&path)?;
     let mut options = arguments.file.encode_options(format)?;
@@ -88,13 +88,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     options.metadata = provenance::of_render(fingerprint, scene.scene(), arguments.crop);
     options.transfer = scene.scene().picture.transfer;
     arguments.check_crop(&scene)?;
-    let interrupt = Interrupt::new();
+    arguments.scene.admit(&scene)?;
+    interrupt.watch();
     let file = PictureFile::create(&path)?;
     interrupt.removes(file.temporary());
     let (film, build, render) = arguments.trace(&scene, &interrupt)?;
     let report = Report::new(arguments.scene.path.clone(), path, format, &film);
     let seconds = Seconds { load, build, render, write: 0.0 };
-    finish(arguments, film, file, &options, report.with_seconds(seconds))
+    finish(arguments, film, file, &options, report.with_seconds(seconds).stopped_by(interrupt.reason()))
 }
 
 /// Writes what there is, and says so.
@@ -158,6 +159,7 @@ impl Arguments {
     fn trace(&self, scene: &CheckedScene, interrupt: &Interrupt) -> Result<(Film, f64, f64), Failure> {
         durer::with_threads(self.threads.map(usize::from), || {
             let (compiled, build) = timed(|| self.scene.compile_for(scene, self.simd.unwrap_or_default(), self.show()));
+            let compiled = compiled?;
             let bar = Bar::new(interrupt.stop_flag(), self.show());
             let options = RenderOptions { threads: None, region: self.crop };
             let (film, render) = timed(|| durer::render(&compiled, &options, &bar));

@@ -3,8 +3,10 @@
 mod compare;
 mod explain;
 mod heatmap;
+mod hostile;
 mod inspect;
 mod interrupt;
+mod limits;
 mod models;
 mod render;
 mod texts;

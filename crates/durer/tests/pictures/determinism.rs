@@ -1,7 +1,7 @@
 //! The same scene gives the same bytes, however it is rendered.
 
 use crate::room::room;
-use crate::support::{compile, explained};
+use crate::support::{Numbers, compile, explained, scene};
 use durer::scene::{Antialias, PixelFilter};
 use durer::{CompiledScene, Film, Progress, Region, RenderOptions};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
@@ -68,6 +68,29 @@ fn a_region_is_the_same_part_of_the_whole() {
                     assert_eq!(part.pixel(column, row), whole.pixel(x + column, y + row), "{mode:?} {region:?}");
                 }
             }
+        }
+    }
+}
+
+/// Small things are looked for where they are; that must not depend on what else is looked at.
+#[test]
+fn a_region_of_small_things_is_the_same_part_of_the_whole() {
+    let mut numbers = Numbers(7);
+    let mut balls = String::new();
+    for _ in 0..60 {
+        let (x, y, radius) = (2.0 * numbers.signed(), 2.0 * numbers.signed(), 0.03 * numbers.next());
+        balls += &format!("  - sphere: {{center: [{x}, {y}, 0], radius: {radius}}}\n");
+        balls += &format!("  - cylinder: {{base: [{x}, {y}, -1], top: [{y}, {x}, -1.5], radius: {}}}\n", radius * 0.1);
+    }
+    for filter in ["box", "gaussian"] {
+        let text = format!(
+            "picture: {{width: 60, height: 60}}\nrender: {{filter: {filter}}}\n\
+             camera: {{position: [0, 0, 5], look_at: [0, 0, 0]}}\nobjects:\n{balls}"
+        );
+        let scene = compile(scene(&text));
+        let whole = rendered(&scene, &RenderOptions::default()).develop();
+        for pixel in explained(&scene).step_by(7) {
+            assert_eq!(pixel.color, whole.pixel(pixel.x, pixel.y), "{filter} ({}, {})", pixel.x, pixel.y);
         }
     }
 }

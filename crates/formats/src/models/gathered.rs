@@ -4,7 +4,7 @@ use super::normals::mend;
 use super::vertices::Placed;
 use super::warnings::Warnings;
 use super::{Model, ModelError};
-use crate::Limits;
+use crate::{Exceeded, Limit, Limits};
 use durer_math::Rgb;
 use durer_scene::{Mesh, MeshData, MeshNormals, MeshPart, Object, ObjectKind, Scene};
 use std::sync::Arc;
@@ -21,7 +21,7 @@ impl Triangles {
     /// None yet, and room for this many.
     pub(crate) fn with_capacity(count: usize, limits: &Limits) -> Triangles {
         // Parts count triangles in 32 bits.
-        let most = limits.max_triangles.min(u64::from(u32::MAX));
+        let most = limits.max_primitives.min(u64::from(u32::MAX));
         Triangles { list: Vec::with_capacity(count.min(most as usize)), most, refused: false }
     }
 
@@ -56,7 +56,8 @@ impl Triangles {
 
 /// Complains about more triangles than allowed.
 pub(crate) fn too_many_triangles(most: u64) -> ModelError {
-    ModelError::new(format!("there are more than {most} triangles"))
+    let exceeded = Exceeded { limit: Limit::Primitives, asked: None, allowed: most };
+    ModelError::new(format!("there are more than {most} triangles")).help(exceeded.help())
 }
 
 /// A mesh whose vertices have all been read.

@@ -71,7 +71,8 @@ use value::{Place, Value};
 /// The first thing that is wrong with it.
 pub(crate) fn read(file: &str, bytes: &[u8], assets: &dyn Assets, limits: &Limits) -> Result<Model, ModelError> {
     let container = container::open(bytes)?;
-    let json = json::parse(container.json, container.json_starts, limits.max_values)?;
+    let json =
+        json::parse(container.json, container.json_starts, usize::try_from(limits.max_values).unwrap_or(usize::MAX))?;
     let root = Value::root(&json)?;
     check_version(&root)?;
     let source = Source::new(root, &container, file, assets, limits)?;

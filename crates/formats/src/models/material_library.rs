@@ -9,8 +9,9 @@ mod tests;
 
 use super::warnings::Warnings;
 use super::{beside, gathered};
+use crate::limits::textures;
 use crate::{AssetError, Assets, Limits};
-use durer_imaging::{DecodeLimits, decode};
+use durer_imaging::decode;
 use durer_math::{DVec3, Rgb};
 use durer_scene::{
     Channels, Encoding, Filter, ImageAsset, ImageId, ImageTexture, Mapping, Material, MaterialId, Paint, Pattern,
@@ -31,7 +32,7 @@ pub(super) struct Library<'a> {
     lacks_some: bool,
     used: BTreeMap<String, Option<MaterialId>>,
     images: BTreeMap<String, Option<ImageId>>,
-    texels: u64,
+    texture_bytes: u64,
     /// Materials, textures and images.
     pub(super) scene: Scene,
 }
@@ -47,14 +48,14 @@ impl<'a> Library<'a> {
             lacks_some: false,
             used: BTreeMap::new(),
             images: BTreeMap::new(),
-            texels: 0,
+            texture_bytes: 0,
             scene: gathered::nothing(),
         }
     }
 
     /// Reads a library; if it cannot be had there is a warning.
     pub(super) fn open(&mut self, name: &str, warnings: &mut Warnings) {
-        match self.read(name, self.limits.max_model_bytes) {
+        match self.read(name, self.limits.max_file_bytes) {
             Ok((_, bytes)) => parse::parse(&bytes, &mut self.entries, warnings),
             Err(error) => {
                 self.lacks_some = true;
@@ -68,7 +69,7 @@ impl<'a> Library<'a> {
 
     /// True if there is such a file.
     pub(super) fn has_file(&self, name: &str) -> bool {
-        !matches!(self.read(name, self.limits.max_model_bytes), Err(AssetError::NotFound))
+        !matches!(self.read(name, self.limits.max_file_bytes), Err(AssetError::NotFound))
     }
 
     /// A file that the model names, and the name under which it was found. Models are moved around without care for the
@@ -143,7 +144,7 @@ impl<'a> Library<'a> {
         }
         let id = match self.load(name) {
             Ok(image) => {
-                self.texels += u64::from(image.bitmap.width) * u64::from(image.bitmap.height);
+                self.texture_bytes += image.bitmap.memory();
                 self.scene.images.push(image);
                 Some(ImageId(self.scene.images.len() as u32 - 1))
             }
@@ -158,9 +159,8 @@ impl<'a> Library<'a> {
 
     fn load(&self, name: &str) -> Result<ImageAsset, String> {
         let (file, bytes) =
-            self.read(name, self.limits.max_image_bytes).map_err(|error| cannot("read the image", name, &error))?;
-        let left = self.limits.max_texels.saturating_sub(self.texels);
-        let limits = DecodeLimits { max_pixels: left, max_bytes: left.saturating_mul(12) };
+            self.read(name, self.limits.max_file_bytes).map_err(|error| cannot("read the image", name, &error))?;
+        let limits = textures::left(self.limits, self.texture_bytes);
         let bitmap =
             decode(&bytes, &limits).map_err(|error| format!("cannot use the image `{}`: {error}", shorten(name)))?;
         Ok(ImageAsset { file, bitmap: Arc::new(bitmap) })

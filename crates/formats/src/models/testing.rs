@@ -12,7 +12,7 @@ impl Assets for Files<'_> {
     fn read(&self, relative: &str, max_bytes: u64) -> Result<Vec<u8>, AssetError> {
         let found = self.0.iter().find(|(name, _)| *name == relative);
         let (_, bytes) = found.ok_or(AssetError::NotFound)?;
-        if bytes.len() as u64 > max_bytes { Err(AssetError::TooLarge(max_bytes)) } else { Ok(bytes.to_vec()) }
+        if bytes.len() as u64 > max_bytes { Err(AssetError::TooLarge(bytes.len() as u64)) } else { Ok(bytes.to_vec()) }
     }
 }
 

@@ -46,7 +46,7 @@ pub(crate) struct Decoder<'a> {
     /// Objects that imports have brought so far, those of the same file counted each time.
     pub(crate) imported: usize,
     /// Pixels of all images so far.
-    pub(crate) texels: u64,
+    pub(crate) texture_bytes: u64,
     /// Values that stand beside one that could not be read: what the check says of them may come from the stand-in.
     pub(crate) doubtful: Vec<Span>,
 }
@@ -70,7 +70,7 @@ impl<'a> Decoder<'a> {
             models: BTreeMap::new(),
             meshes: BTreeMap::new(),
             imported: 0,
-            texels: 0,
+            texture_bytes: 0,
         }
     }
 

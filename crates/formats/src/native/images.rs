@@ -3,7 +3,8 @@
 use super::decode::Decoder;
 use super::tree::{Node, shorten};
 use crate::diagnostics::Complaint;
-use durer_imaging::{Bitmap, DecodeLimits, decode};
+use crate::limits::textures;
+use durer_imaging::{Bitmap, decode};
 use durer_scene::{Channels, ImageAsset, ImageId, ImageTexture, Pattern};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -21,26 +22,25 @@ pub(super) fn load(name: &str, node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<
 }
 
 fn read(name: &str, node: &Node, cx: &mut Decoder<'_>) -> Option<Bitmap> {
-    let bytes = match cx.assets.read(name, cx.limits.max_image_bytes) {
+    let bytes = match cx.assets.read(name, cx.limits.max_file_bytes) {
         Ok(bytes) => bytes,
         Err(error) => {
             let complaint = Complaint::error(node.span, format!("cannot read the image `{}`", shorten(name)));
             return cx.complain(complaint.label(error.to_string()).maybe_help(error.help()));
         }
     };
-    let left = cx.limits.max_texels.saturating_sub(cx.texels);
-    let limits = DecodeLimits { max_pixels: left, max_bytes: left.saturating_mul(16) };
+    let limits = textures::left(cx.limits, cx.texture_bytes);
     match decode(&bytes, &limits) {
         Ok(bitmap) => Some(bitmap),
         Err(error) => {
             let complaint = Complaint::error(node.span, format!("cannot use the image `{}`", shorten(name)));
-            cx.complain(complaint.label(error.to_string()))
+            cx.complain(complaint.label(error.to_string()).maybe_help(textures::help(&error)))
         }
     }
 }
 
 fn enter(name: &str, bitmap: Bitmap, node: &Rc<Node>, cx: &mut Decoder<'_>) -> ImageId {
-    cx.texels += u64::from(bitmap.width) * u64::from(bitmap.height);
+    cx.texture_bytes += bitmap.memory();
     cx.scene.images.push(ImageAsset { file: name.to_owned(), bitmap: Arc::new(bitmap) });
     cx.image_nodes.push(Rc::clone(node));
     ImageId(cx.scene.images.len() as u32 - 1)

@@ -42,7 +42,7 @@ impl Written {
 /// Adds the objects of an import to those of all so far: a file that is imported again and again, as by aliases, must not
 /// unfold without end. False after complaining.
 fn count(import: &Import, span: Span, cx: &mut Decoder<'_>) -> bool {
-    let most = cx.limits.max_values;
+    let most = usize::try_from(cx.limits.max_values).unwrap_or(usize::MAX);
     let before = cx.imported;
     cx.imported = before.saturating_add(count_all(&import.objects));
     if cx.imported > most && before <= most {
@@ -74,14 +74,15 @@ fn load(file: &str, span: Span, cx: &mut Decoder<'_>) -> Option<Rc<Import>> {
 }
 
 fn read(file: &str, span: Span, cx: &mut Decoder<'_>) -> Option<Model> {
-    let bytes = match cx.assets.read(file, cx.limits.max_model_bytes) {
+    let bytes = match cx.assets.read(file, cx.limits.max_file_bytes) {
         Ok(bytes) => bytes,
         Err(error) => {
             let complaint = Complaint::error(span, format!("cannot read the model `{}`", shorten(file)));
             return cx.complain(complaint.label(error.to_string()).maybe_help(error.help()));
         }
     };
-    let limits = Limits { max_texels: cx.limits.max_texels.saturating_sub(cx.texels), ..cx.limits.clone() };
+    let left = cx.limits.max_texture_bytes.saturating_sub(cx.texture_bytes);
+    let limits = Limits { max_texture_bytes: left, ..cx.limits.clone() };
     match models::read(file, &bytes, cx.assets, &limits) {
         Ok(model) => Some(model),
         Err(error) => {
@@ -98,8 +99,7 @@ fn enter(file: &str, model: Model, span: Span, cx: &mut Decoder<'_>) -> Import {
         let _: Option<()> = cx.complain(Complaint::warning(span, format!("`{}`: {warning}", shorten(file))));
     }
     let (lights, camera) = (std::mem::take(&mut scene.lights), scene.camera.take());
-    let pixels = |image: &durer_scene::ImageAsset| u64::from(image.bitmap.width) * u64::from(image.bitmap.height);
-    cx.texels += scene.images.iter().map(pixels).sum::<u64>();
+    cx.texture_bytes += scene.images.iter().map(|image| image.bitmap.memory()).sum::<u64>();
     let objects = models::adopt(scene, &mut cx.scene);
     let node = Rc::new(Node { span, kind: NodeKind::Scalar { text: file.to_owned(), plain: true } });
     cx.material_nodes.resize(cx.scene.materials.len(), Rc::clone(&node));

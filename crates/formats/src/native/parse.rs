@@ -156,12 +156,16 @@ impl Builder<'_> {
 
     /// Reading recurses, so that no setting may allow more than the default.
     fn deepest(&self) -> usize {
-        self.limits.max_nesting.min(200)
+        self.limits.max_nesting.min(200) as usize
     }
 
     fn too_deep(&self, span: Span) -> Result<(), Stop> {
         let message = format!("nested more than {} levels deep", self.deepest());
-        stop(span, &message, "no scene needs this: is a bracket missing?")
+        let help = match self.limits.max_nesting >= 200 {
+            true => "no scene needs this: is a bracket missing?",
+            false => "is a bracket missing? If you trust this scene, raise the limit, up to `--limits nesting=200`",
+        };
+        stop(span, &message, help)
     }
 
     fn alias(&mut self, id: usize, span: Span) -> Result<(), Stop> {
@@ -171,7 +175,7 @@ impl Builder<'_> {
         if self.stack.len() + target.levels > self.deepest() {
             return self.too_deep(span);
         }
-        if self.total + target.values > self.limits.max_values {
+        if (self.total + target.values) as u64 > self.limits.max_values {
             return self.too_many(span);
         }
         self.add(0, target)
@@ -179,7 +183,9 @@ impl Builder<'_> {
 
     fn too_many(&self, span: Span) -> Result<(), Stop> {
         let message = format!("this file unfolds to more than {} values", self.limits.max_values);
-        stop(span, &message, "aliases count as often as they are used")
+        let help =
+            "aliases count as often as they are used; if you trust this scene, raise the limit: `--limits values=…`";
+        stop(span, &message, help)
     }
 
     fn close(&mut self, end: Span) -> Result<(), Stop> {
@@ -198,7 +204,7 @@ impl Builder<'_> {
 
     fn add(&mut self, anchor: usize, new: Sized) -> Result<(), Stop> {
         self.total += new.values;
-        if self.total > self.limits.max_values {
+        if self.total as u64 > self.limits.max_values {
             return self.too_many(new.node.span);
         }
         if anchor != 0 {

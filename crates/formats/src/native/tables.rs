@@ -153,7 +153,7 @@ pub(crate) fn load(file: &str, span: Span, cx: &mut Decoder<'_>) -> Option<Rc<Ta
 }
 
 fn read(file: &str, span: Span, cx: &mut Decoder<'_>) -> Option<Table> {
-    let bytes = match cx.assets.read(file, cx.limits.max_data_bytes) {
+    let bytes = match cx.assets.read(file, cx.limits.max_file_bytes) {
         Ok(bytes) => bytes,
         Err(error) => {
             let complaint = Complaint::error(span, format!("cannot read the data file `{}`", shorten(file)));

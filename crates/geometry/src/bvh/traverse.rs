@@ -145,6 +145,8 @@ impl Bvh {
                 match stack.pop() {
                     None => return Some(false),
                     Some(child) if !child.is_leaf() => break child.index(),
+                    // Rays of numbers beyond single precision may seem to meet the boxes of no child.
+                    Some(Child::NONE) => {}
                     Some(leaf) if test(leaf.items()) => return Some(true),
                     Some(_) => {}
                 }

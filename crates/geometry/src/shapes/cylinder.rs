@@ -78,8 +78,10 @@ impl Shape for Cylinder {
     fn surface(&self, point: DVec3, part: u32) -> (DVec3, DVec3) {
         match part {
             0 => {
-                let scale = 1.0 / (point.x * point.x + point.z * point.z).sqrt();
-                let normal = DVec3::new(point.x * scale, 0.0, point.z * scale);
+                let from_axis = (point.x * point.x + point.z * point.z).sqrt();
+                let scale = 1.0 / from_axis;
+                // Thinner than the rounding where it lies, its axis may be hit.
+                let normal = if from_axis > 0.0 { DVec3::new(point.x * scale, 0.0, point.z * scale) } else { DVec3::X };
                 (DVec3::new(normal.x, point.y.clamp(-INSET, INSET), normal.z), normal)
             }
             1 => (into_cap(point, -1.0, 1.0), DVec3::NEG_Y),

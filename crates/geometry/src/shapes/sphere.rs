@@ -16,6 +16,14 @@ pub(super) fn longitude(point: DVec3) -> f64 {
     (atan2(point.z, point.x) + PI) / (2.0 * PI)
 }
 
+/// The direction from the middle to a point. Of a ball that is smaller than the rounding where it lies, a hit may be the
+/// middle itself: then any direction is as good.
+#[inline]
+pub(super) fn outward(from_middle: DVec3) -> DVec3 {
+    let length = from_middle.length();
+    if length > 0.0 { from_middle / length } else { DVec3::Y }
+}
+
 /// |p|² - 1 along a ray, as a t² + 2 b t + c, and b² - a c.
 struct Quadratic {
     a: f64,
@@ -79,13 +87,13 @@ impl Shape for Sphere {
     }
 
     fn surface(&self, point: DVec3, _part: u32) -> (DVec3, DVec3) {
-        let snapped = point / point.length();
+        let snapped = outward(point);
         (snapped, snapped)
     }
 
     /// Longitude, and latitude from 0 at -y to 1 at +y.
     fn uv(&self, point: DVec3, _part: u32) -> DVec2 {
-        let y = (point.y / point.length()).clamp(-1.0, 1.0);
+        let y = outward(point).y.clamp(-1.0, 1.0);
         DVec2::new(longitude(point), asin(y) / PI + 0.5)
     }
 
@@ -113,6 +121,25 @@ mod tests {
 
     fn depth(p: DVec3) -> f64 {
         p.length() - 1.0
+    }
+
+    /// Of things smaller than the rounding where they lie, the middle may be hit.
+    #[test]
+    fn middles_have_a_surface_of_some_direction() {
+        use super::super::{cylinder::Cylinder, torus::Torus};
+        let (ring, tube) = (Torus { tube_radius: 0.5 }, Cylinder { open: true });
+        let shapes: [(&dyn Shape, DVec3); 5] = [
+            (&Sphere, DVec3::ZERO),
+            (&tube, DVec3::ZERO),
+            (&tube, DVec3::Y * 0.3),
+            (&ring, DVec3::ZERO),
+            (&ring, DVec3::X),
+        ];
+        for (shape, middle) in shapes {
+            let (point, normal) = shape.surface(middle, 0);
+            assert!(point.is_finite() && (normal.length() - 1.0).abs() < 1e-15, "{point} {normal}");
+            assert!(shape.uv(middle, 0).is_finite());
+        }
     }
 
     #[test]

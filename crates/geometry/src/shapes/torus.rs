@@ -238,8 +238,9 @@ impl Shape for Torus {
 
     fn surface(&self, p: DVec3, _part: u32) -> (DVec3, DVec3) {
         let rho = (p.x * p.x + p.z * p.z).sqrt();
-        let center = DVec3::new(p.x / rho, 0.0, p.z / rho);
-        let normal = (p - center).normalize();
+        // Smaller than the rounding where it lies, its axis may be hit, or the middle of its tube.
+        let center = if rho > 0.0 { DVec3::new(p.x / rho, 0.0, p.z / rho) } else { DVec3::X };
+        let normal = if p == center { DVec3::Y } else { (p - center).normalize() };
         (center + normal * self.tube_radius, normal)
     }
 

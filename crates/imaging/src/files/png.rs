@@ -21,6 +21,11 @@ pub(crate) fn decode(bytes: &[u8], limits: &DecodeLimits) -> Result<Bitmap, Deco
     limits.check(width, height, 3 * bytes_per_sample)?;
     decoder.set_limits(::png::Limits { bytes: usize::try_from(limits.max_bytes).unwrap_or(usize::MAX) });
     let mut reader = decoder.read_info().map_err(decode_error)?;
+    // The crate panics over others.
+    let is_whole = |palette: &[u8]| palette.len().is_multiple_of(3) && palette.len() <= 3 * 256;
+    if !reader.info().palette.as_deref().is_none_or(is_whole) {
+        return Err(corrupt("the palette is damaged".into()));
+    }
     let (color, depth) = reader.output_color_type();
     // Only now it is known whether a palette or a transparent colour makes an alpha channel.
     let has_alpha = matches!(color, ColorType::GrayscaleAlpha | ColorType::Rgba);
@@ -174,6 +179,24 @@ fn encode_error(error: &EncodingError) -> EncodeError {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Found by fuzzing: the crate reads such a file up to a panic.
+    #[test]
+    fn palettes_of_parts_of_colors_are_refused() {
+        let of_palette = |length: usize| {
+            let mut bytes = Vec::new();
+            let mut encoder = ::png::Encoder::new(&mut bytes, 4, 1);
+            encoder.set_color(ColorType::Indexed);
+            encoder.set_depth(BitDepth::One);
+            encoder.set_palette(vec![7; length]);
+            encoder.write_header().and_then(|mut writer| writer.write_image_data(&[0])).unwrap();
+            decode(&bytes, &DecodeLimits::default()).map(|bitmap| bitmap.width)
+        };
+        assert_eq!(of_palette(6).unwrap(), 4);
+        for length in [1, 7, 28, 771] {
+            assert!(of_palette(length).is_err(), "{length}");
+        }
+    }
 
     #[test]
     fn damage_is_told_in_plain_words() {

@@ -1,7 +1,7 @@
 //! A picture from a file, laid on things.
 
 use super::cells::{cell, fraction};
-use super::texels::{Tables, Texels};
+use super::texels::{BRIGHTEST, Tables, Texels};
 use super::wrap::wrap_pixel;
 use durer_imaging::Bitmap;
 use durer_math::{DVec2, DVec3, Rgb, functions};
@@ -40,7 +40,7 @@ impl Image {
             Filter::Nearest => self.pixel(cell(in_pixels.x), cell(in_pixels.y)),
             Filter::Bilinear => self.bilinear(in_pixels - 0.5),
         };
-        found * self.tint
+        (found * self.tint).map(|component| component.min(BRIGHTEST))
     }
 
     /// Blends the four pixels around a place that counts pixels from centre to centre.

@@ -6,6 +6,10 @@ use durer_math::Rgb;
 use durer_scene::{Channels, Encoding};
 use std::sync::Arc;
 
+/// The greatest number of a texel, as that of a light: more of it, times others, might be more than single precision
+/// holds. Files of floating-point numbers hold any, negative ones among them.
+pub(super) const BRIGHTEST: f32 = 1e6;
+
 /// An image's pixels, to be read as linear light.
 #[derive(Debug)]
 pub(super) struct Texels {
@@ -65,7 +69,9 @@ impl Texels {
         let index = row as usize * self.bitmap.width as usize + column as usize;
         match self.channels {
             Channels::Color => self.color(index),
-            Channels::Alpha => Rgb::gray(self.bitmap.alpha.as_ref().map_or(1.0, |alpha| alpha.get(index))),
+            Channels::Alpha => {
+                Rgb::gray(self.bitmap.alpha.as_ref().map_or(1.0, |alpha| alpha.get(index)).clamp(0.0, 1.0))
+            }
         }
     }
 
@@ -74,7 +80,7 @@ impl Texels {
         match &self.bitmap.texels {
             Stored::U8(texels) => texels[index].map(|number| table[usize::from(number)]).into(),
             Stored::U16(texels) => texels[index].map(|number| table[usize::from(number)]).into(),
-            Stored::F32(texels) => texels[index].into(),
+            Stored::F32(texels) => texels[index].map(|number| number.clamp(0.0, BRIGHTEST)).into(),
         }
     }
 }
@@ -127,6 +133,17 @@ mod tests {
 
         let float = texels(Stored::F32(vec![[0.0; 3], [0.5, 7.0, 0.25]]), Encoding::Srgb, tables);
         assert_eq!(float.get(0, 0), Rgb::new(0.5, 7.0, 0.25), "floating point is linear whatever the scene says");
+    }
+
+    #[test]
+    fn numbers_no_light_can_have_are_brought_to_those_it_can() {
+        let tables = &mut Tables::default();
+        let float = texels(Stored::F32(vec![[0.0; 3], [-0.5, f32::MAX, f32::MIN]]), Encoding::Linear, tables);
+        assert_eq!(float.get(0, 0), Rgb::new(0.0, 1e6, 0.0));
+        let alpha = Some(Alpha::F32(vec![-3.0, 3.0]));
+        let bitmap = Bitmap { width: 1, height: 2, texels: Stored::U8(vec![[9; 3]; 2]), alpha };
+        let image = Texels::new(&Arc::new(bitmap), Channels::Alpha, Encoding::Linear, tables);
+        assert_eq!([image.get(0, 1), image.get(0, 0)], [Rgb::BLACK, Rgb::WHITE]);
     }
 
     #[test]

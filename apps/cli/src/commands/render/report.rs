@@ -22,6 +22,8 @@ pub(super) struct Report {
     first_bad_sample: Option<BadSample>,
     bytes: usize,
     seconds: Seconds,
+    /// What stopped it, if anything did.
+    stopped_by: &'static str,
 }
 
 /// Seconds of wall time for each step.
@@ -47,7 +49,13 @@ impl Report {
             first_bad_sample: film.first_bad_sample(),
             bytes: 0,
             seconds: Seconds::default(),
+            stopped_by: "interrupted",
         }
+    }
+
+    /// With what stopped it, if anything did.
+    pub(super) fn stopped_by(self, stopped_by: &'static str) -> Report {
+        Report { stopped_by, ..self }
     }
 
     /// With the time that the steps took.
@@ -132,7 +140,8 @@ impl Report {
     pub(super) fn tell_interrupted(&self) {
         let share = 100.0 * self.finished as f64 / self.pixels() as f64;
         output::note(&format!(
-            "interrupted: {} has {} of {} pixels ({} %), the others are black; {} {}",
+            "{}: {} has {} of {} pixels ({} %), the others are black; {} {}",
+            self.stopped_by,
             self.written_path().display(),
             thousands(self.finished),
             thousands(self.pixels()),
@@ -145,7 +154,7 @@ impl Report {
     /// Says that there is no picture.
     pub(super) fn tell_nothing(&self) {
         let path = self.path.display();
-        output::note(&format!("interrupted before any tile was finished: {path} {}", self.fate()));
+        output::note(&format!("{} before any tile was finished: {path} {}", self.stopped_by, self.fate()));
     }
 
     /// Prints everything for programs.

@@ -19,8 +19,8 @@ pub(super) struct Budget {
 
 impl Budget {
     /// That of a file of so many bytes.
-    pub(super) fn of(bytes: usize, max_triangles: u64) -> Budget {
-        let budget = Budget { left: Cell::new(ALWAYS), triangles: Cell::new(max_triangles) };
+    pub(super) fn of(bytes: usize, most_triangles: u64) -> Budget {
+        let budget = Budget { left: Cell::new(ALWAYS), triangles: Cell::new(most_triangles) };
         budget.grow(bytes);
         budget
     }
@@ -44,7 +44,10 @@ impl Budget {
     pub(super) fn triangles(&self, count: usize, place: Place) -> Result<(), ModelError> {
         match self.triangles.get().checked_sub(count as u64) {
             Some(left) => self.triangles.set(left),
-            None => return Err(place.fault("with this, the file has more triangles than are allowed")),
+            None => {
+                let fault = place.fault("with this, the file has more triangles than are allowed");
+                return Err(fault.help("if you trust this scene, raise the limit: `--limits primitives=…`"));
+            }
         }
         Ok(())
     }

@@ -29,7 +29,7 @@ pub(super) struct Files<'a> {
 impl<'a> Files<'a> {
     /// Those of the glTF file that the scene calls `file`.
     pub(super) fn of(file: &'a str, assets: &'a dyn Assets, limits: &Limits) -> Files<'a> {
-        Files { assets, file, left: Cell::new(limits.max_model_bytes) }
+        Files { assets, file, left: Cell::new(limits.max_total_bytes) }
     }
 
     /// The name by which the scene would call the file of a relative URI.

@@ -3,7 +3,9 @@
 use super::super::ModelError;
 use super::source::Source;
 use super::value::{Place, Value};
-use durer_imaging::{Alpha, Bitmap, DecodeLimits, Texels, Transfer, decode};
+use crate::limits::textures;
+use crate::{Exceeded, Limit};
+use durer_imaging::{Alpha, Bitmap, Texels, Transfer, decode};
 use durer_math::functions::{cos, sin};
 use durer_math::{DAffine3, DMat3, DVec3, Rgb};
 use durer_scene::{
@@ -24,9 +26,9 @@ pub(super) struct Images {
     /// The mean of each picture that was asked for it, and whether its numbers were taken as sRGB.
     means: HashMap<(usize, bool), Rgb>,
     /// Pixels of all pictures that are kept.
-    texels: u64,
+    bytes: u64,
     /// Pixels of all pictures that were read for their mean only.
-    texels_of_means: u64,
+    bytes_of_means: u64,
 }
 
 /// What a picture is made from: an image, with the least alpha that counts as there.
@@ -173,7 +175,7 @@ impl Images {
         }
         let bitmap = match self.ids.get(&Key { image: used.image, cutoff: None }) {
             Some(id) => Arc::clone(&self.images[id.0 as usize].bitmap),
-            None => Arc::new(read(source, used, &mut self.texels_of_means)?),
+            None => Arc::new(read(source, used, &mut self.bytes_of_means)?),
         };
         let mean = mean(&bitmap, encoding);
         self.means.insert(key, mean);
@@ -194,11 +196,11 @@ impl Images {
             return Ok(*id);
         }
         let (bitmap, suffix) = match cutoff {
-            None => (read(source, used, &mut self.texels)?, String::new()),
+            None => (read(source, used, &mut self.bytes)?, String::new()),
             Some(cutoff) => {
                 let whole = self.image(source, used, None)?;
                 let bitmap = Arc::clone(&self.images[whole.0 as usize].bitmap);
-                take_texels(source, &bitmap, &mut self.texels, used.place)?;
+                take_alpha(source, &bitmap, &mut self.bytes, used.place)?;
                 (masked(&bitmap, cutoff), format!(" where alpha is at least {cutoff}"))
             }
         };
@@ -212,23 +214,27 @@ impl Images {
 }
 
 /// Reads a picture and counts its pixels.
-fn read(source: &Source<'_>, used: &TextureUse, texels: &mut u64) -> Result<Bitmap, ModelError> {
+fn read(source: &Source<'_>, used: &TextureUse, taken: &mut u64) -> Result<Bitmap, ModelError> {
     let bytes = source.image_bytes(used.image)?;
     // Pictures may share their bytes; the time that they take is to be paid for each.
     source.budget.spend(bytes.len(), 1, used.place)?;
-    let left = source.limits.max_texels.saturating_sub(*texels);
-    let limits = DecodeLimits { max_pixels: left, max_bytes: left.saturating_mul(16) };
-    let bitmap = decode(&bytes, &limits).map_err(|error| used.place.fault(error))?;
-    take_texels(source, &bitmap, texels, used.place)?;
+    let bitmap = decode(&bytes, &textures::left(source.limits, *taken)).map_err(|error| {
+        let help = textures::help(&error);
+        ModelError { help, ..used.place.fault(error) }
+    })?;
+    *taken += bitmap.memory();
     Ok(bitmap)
 }
 
-fn take_texels(source: &Source<'_>, bitmap: &Bitmap, texels: &mut u64, place: Place) -> Result<(), ModelError> {
-    *texels = texels.saturating_add(u64::from(bitmap.width) * u64::from(bitmap.height));
-    match *texels <= source.limits.max_texels {
-        true => Ok(()),
-        false => Err(place.fault("with this, the images have more pixels than are allowed")),
+/// Counts the bytes of what [`masked`] makes, before it does.
+fn take_alpha(source: &Source<'_>, bitmap: &Bitmap, taken: &mut u64, place: Place) -> Result<(), ModelError> {
+    let (bytes, allowed) = (4 * u64::from(bitmap.width) * u64::from(bitmap.height), source.limits.max_texture_bytes);
+    *taken = taken.saturating_add(bytes);
+    if *taken <= allowed {
+        return Ok(());
     }
+    let exceeded = Exceeded { limit: Limit::Textures, asked: Some(*taken), allowed };
+    Err(place.fault(format!("with this, the images are too large: {exceeded}")).help(exceeded.help()))
 }
 
 /// The mean of a picture's colors, linear, each component from 0 to 1.
@@ -281,7 +287,7 @@ impl<'a> Source<'a> {
     fn image_bytes(&self, index: usize) -> Result<Cow<'_, [u8]>, ModelError> {
         let image = self.item("images", index, Place::default())?;
         if let Some(uri) = image.text("uri")? {
-            return Ok(Cow::Owned(self.files.read(uri, self.limits.max_image_bytes, image.place)?));
+            return Ok(Cow::Owned(self.files.read(uri, self.limits.max_file_bytes, image.place)?));
         }
         match self.view(&image)? {
             Some(view) => Ok(Cow::Borrowed(view.bytes)),

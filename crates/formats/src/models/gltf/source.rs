@@ -49,7 +49,7 @@ impl<'a> Source<'a> {
             file,
             files: Files::of(file, assets, limits),
             limits,
-            budget: Budget::of(bytes, limits.max_triangles),
+            budget: Budget::of(bytes, limits.max_primitives),
             notes: Notes::default(),
             binary: container.binary,
             buffers,
@@ -104,7 +104,7 @@ impl<'a> Source<'a> {
         let length = buffer.required_whole("byteLength")?;
         let mut bytes = match (buffer.text("uri")?, self.binary) {
             (Some(uri), _) => {
-                let bytes = self.files.read(uri, self.limits.max_model_bytes, buffer.place)?;
+                let bytes = self.files.read(uri, self.limits.max_file_bytes, buffer.place)?;
                 self.budget.grow(bytes.len());
                 Cow::Owned(bytes)
             }

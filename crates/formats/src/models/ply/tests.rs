@@ -271,7 +271,7 @@ fn counts_that_lie_take_no_memory() {
 
 #[test]
 fn there_may_be_too_many_triangles() {
-    let limits = Limits { max_triangles: 35, ..Limits::default() };
+    let limits = Limits { max_primitives: 35, ..Limits::default() };
     let bytes = written(Encoding::LittleEndian, "float", "uchar", "int");
     let error = super::super::read("a.ply", &bytes, &NoAssets, &limits).unwrap_err();
     assert!(error.message.contains("more than 35 triangles"), "{error}");

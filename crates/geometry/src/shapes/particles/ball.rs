@@ -4,7 +4,7 @@ use super::{LARGE_LEAVES, Particle, wide};
 use crate::Slender;
 use crate::bvh::build::Leaves;
 use crate::shapes::Shape;
-use crate::shapes::sphere::Sphere;
+use crate::shapes::sphere::{Sphere, outward};
 use crate::simd::blocks::{Block, Hits, WideRay};
 use crate::simd::boxes::{Box32, round_down, round_up};
 use crate::simd::spheres;
@@ -27,8 +27,7 @@ impl Ball {
 
     /// From the center towards a point, of unit length.
     fn towards(&self, point: DVec3) -> DVec3 {
-        let from_center = point - self.center;
-        from_center / from_center.length()
+        outward(point - self.center)
     }
 }
 

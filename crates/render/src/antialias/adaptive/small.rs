@@ -172,9 +172,9 @@ impl SmallThing {
     /// Calls `visit` with the pixels of a region that it may touch, counted row by row.
     fn each_pixel(&self, region: Region, mut visit: impl FnMut(u32)) {
         let [a, b] = self.ends;
-        let [first, last] = self.rows(region.y + region.height);
+        let [first, last] = self.rows(u32::MAX);
         let along = b - a;
-        for row in first.max(region.y)..=last {
+        for row in first.max(region.y)..=last.min(region.y + region.height - 1) {
             // The part of the line from which the row can be reached.
             let (top, bottom) = (f64::from(row) - self.radius, f64::from(row + 1) + self.radius);
             let at = |y: f64| if along.y == 0.0 { 0.0 } else { ((y - a.y) / along.y).clamp(0.0, 1.0) };
@@ -216,5 +216,56 @@ fn distance([a, b]: [DVec2; 2], [min, max]: [DVec2; 2]) -> f64 {
         0.0
     } else {
         corners.map(to_line).into_iter().chain([a, b].map(to_square)).fold(f64::INFINITY, f64::min)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The pixels of a region that things touch do not depend on the region.
+    #[test]
+    fn each_region_has_its_own_part_of_the_pixels() {
+        let at = DVec2::new;
+        let ends = [
+            [at(3.2, 4.1); 2],
+            [at(1.0, 30.0), at(30.0, 2.5)],
+            [at(40.0, 7.5), at(2.0, 7.5)],
+            [at(9.5, 41.0), at(9.0, -3.0)],
+        ];
+        let things = || ends.iter().filter_map(|&ends| SmallThing::new(ends, 0.3, 0.3, [1.0, 2.0]));
+        let touched = |region: Region| -> Vec<(usize, u32, u32)> {
+            let mut all = Vec::new();
+            for (index, thing) in things().enumerate() {
+                thing.each_pixel(region, |pixel| {
+                    all.push((index, region.x + pixel % region.width, region.y + pixel / region.width));
+                });
+            }
+            all.sort_unstable();
+            all
+        };
+        let whole = touched(Region { x: 0, y: 0, width: 48, height: 48 });
+        assert!(whole.iter().any(|&(index, ..)| index == 3));
+        for (x, y, width, height) in [(0, 0, 48, 5), (10, 3, 7, 9), (0, 20, 48, 28), (3, 4, 1, 1)] {
+            let is_in = |&(_, a, b): &(usize, u32, u32)| (x..x + width).contains(&a) && (y..y + height).contains(&b);
+            let expected: Vec<_> = whole.iter().copied().filter(is_in).collect();
+            assert_eq!(touched(Region { x, y, width, height }), expected);
+        }
+        // Along a line, every pixel that it crosses is among them.
+        for step in 0..=400 {
+            let point = ends[1][0].lerp(ends[1][1], f64::from(step) / 400.0);
+            assert!(whole.contains(&(1, point.x as u32, point.y as u32)), "{point}");
+        }
+    }
+
+    #[test]
+    fn distances_from_lines_to_squares() {
+        let at = DVec2::new;
+        let unit = [DVec2::ZERO, DVec2::ONE];
+        assert_eq!(distance([at(-1.0, 0.5), at(2.0, 0.6)], unit), 0.0, "it goes through");
+        assert_eq!(distance([at(0.4, 0.5), at(0.6, 0.6)], unit), 0.0, "it lies within");
+        assert_eq!(distance([at(0.5, -2.0), at(0.5, -0.25)], unit), 0.25, "it ends before");
+        assert!((distance([at(2.0, 0.0), at(0.0, 2.0)], [DVec2::ZERO, at(0.5, 0.5)]) - 0.5_f64.sqrt()).abs() < 1e-12);
+        assert!((distance([at(4.0, 5.0); 2], unit) - 5.0).abs() < 1e-12, "it is a point");
     }
 }

@@ -107,8 +107,8 @@ fn triangles_are_limited() {
     let mut file = File::new();
     let positions = file.accessor("VEC3", 5126, 5, &[0; 60]);
     file.show(json!({ "attributes": { "POSITION": positions }, "mode": 5 }));
-    let read = |max_triangles| {
-        let limits = crate::Limits { max_triangles, ..Default::default() };
+    let read = |max_primitives| {
+        let limits = crate::Limits { max_primitives, ..Default::default() };
         super::super::read("a.gltf", &file.text(), &crate::NoAssets, &limits).map(|_| ())
     };
     assert!(read(3).is_ok() && read(2).unwrap_err().message.contains("more triangles than are allowed"));
@@ -120,11 +120,11 @@ fn pictures_are_limited() {
     let texture = file.texture(4, &[[255; 4]; 16]);
     let textures = json!({ "baseColorTexture": { "index": texture } });
     file.show_triangle(json!({ "pbrMetallicRoughness": textures }));
-    let read = |max_texels| {
-        let limits = crate::Limits { max_texels, ..Default::default() };
+    let read = |max_texture_bytes| {
+        let limits = crate::Limits { max_texture_bytes, ..Default::default() };
         super::super::read("a.gltf", &file.text(), &crate::NoAssets, &limits).map(|_| ())
     };
-    assert!(read(16).is_ok() && read(15).unwrap_err().message.starts_with("images[0]: 4 × 4 pixels"));
+    assert!(read(64).is_ok() && read(63).unwrap_err().message.starts_with("images[0]: 4 × 4 pixels"));
 }
 
 #[test]

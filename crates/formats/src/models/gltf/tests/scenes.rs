@@ -131,7 +131,7 @@ struct Folder(Vec<(&'static str, Vec<u8>)>);
 impl Assets for Folder {
     fn read(&self, relative: &str, max_bytes: u64) -> Result<Vec<u8>, AssetError> {
         let (_, bytes) = self.0.iter().find(|(name, _)| *name == relative).ok_or(AssetError::NotFound)?;
-        if bytes.len() as u64 > max_bytes { Err(AssetError::TooLarge(max_bytes)) } else { Ok(bytes.clone()) }
+        if bytes.len() as u64 > max_bytes { Err(AssetError::TooLarge(bytes.len() as u64)) } else { Ok(bytes.clone()) }
     }
 }
 
@@ -163,9 +163,9 @@ fn buffers_and_images_lie_beside_the_file() {
         super::super::read("models/a.gltf", &file.text(), &folder, limits).unwrap_err().message
     };
     assert_eq!(message(cut, &limits), format!("buffers[0]: it should have {length} bytes, but has only {rest}"));
-    let small = Limits { max_model_bytes: 10, ..limits };
+    let small = Limits { max_file_bytes: 10, ..limits };
     let whole = Folder(vec![("models/data/a.bin", file.data.clone())]);
-    assert!(message(whole, &small).contains("larger than 10 bytes"));
+    assert!(message(whole, &small).contains("too many"));
 }
 
 #[test]
@@ -180,8 +180,8 @@ fn one_file_cannot_be_read_without_end() {
         file.show(json!({ "attributes": { "POSITION": positions } }));
     }
     let folder = Folder(vec![("a.bin", [[0; 4], [0, 0, 128, 63], [0, 0, 0, 64]].concat().repeat(3))]);
-    let read = |max_model_bytes| {
-        let limits = Limits { max_model_bytes, ..Limits::default() };
+    let read = |max_total_bytes| {
+        let limits = Limits { max_total_bytes, ..Limits::default() };
         super::super::read("a.gltf", &file.text(), &folder, &limits).map(|_| ()).map_err(|fault| fault.message)
     };
     assert_eq!(read(360), Ok(()));
