@@ -1,5 +1,6 @@
 //! `cargo xtask bench`: timings that are worth keeping, with all that is needed to judge them.
 
+mod antialias;
 mod growth;
 mod kernel;
 mod large;
@@ -18,6 +19,8 @@ pub(crate) const USAGE: &str = "\
   bench peers [--rounds N]  the seed's room in durer, POV-Ray and Tachyon
   bench large [--rounds N] [--counts N,N]
                             up to a million shapes in durer, POV-Ray and Tachyon, from file to picture
+  bench antialias [--scenes NAME,NAME]
+                            rays a pixel and errors of every way of anti-aliasing
   bench kernel [--rounds N] [--scenes NAME,NAME]
                             rays a second of durer, Embree 4 and the crates obvhs and bvh
   bench growth [--rounds N] [--counts N,N]
@@ -32,6 +35,7 @@ pub(crate) fn run(words: &[&str]) -> Option<Result<(), String>> {
         "peers" => Some(options(&["--rounds"]).and_then(|options| peers::run(&options))),
         "large" => Some(options(&["--rounds", "--counts"]).and_then(|options| large::run(&options))),
         "kernel" => Some(options(&["--rounds", "--scenes"]).and_then(|options| kernel::run(&options))),
+        "antialias" => Some(options(&["--scenes"]).and_then(|options| antialias::run(&options))),
         "growth" => Some(options(&["--rounds", "--counts"]).and_then(|options| growth::run(&options))),
         _ => None,
     }

@@ -225,9 +225,9 @@ impl Primitive {
             Kind::Plane(_) => return,
             Kind::Particles(particles) => return particles.each_slender(&mut |one| visit(one.mapped(map, origin))),
             Kind::Sphere(_) => Form::Ball,
+            Kind::Disc(_) => Form::Disc,
             Kind::Cylinder(_) | Kind::Cone(_) => Form::Rod,
             Kind::Cuboid(_)
-            | Kind::Disc(_)
             | Kind::Rectangle(_)
             | Kind::Triangle(_)
             | Kind::Torus(_)

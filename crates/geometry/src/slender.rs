@@ -20,6 +20,8 @@ pub struct Slender {
 pub(crate) enum Form {
     /// As an ellipsoid.
     Ball,
+    /// As a flat disc.
+    Disc,
     /// As a cylinder, at least in its middle.
     Rod,
     /// In a way that is not known.
@@ -36,6 +38,10 @@ impl Slender {
         let ends = |long: DVec3| [center - long, center + long];
         match form {
             Form::Ball => Slender { ends: ends(long - long.normalize_or_zero() * thick), radius: thick, core: thin },
+            // Seen neither edge-on nor from the front.
+            Form::Disc => {
+                Slender { ends: ends(long - long.normalize_or_zero() * thick), radius: thick, core: 0.75 * thick }
+            }
             Form::Rod => Slender { ends: ends(long), radius: thick, core: thin },
             Form::Any => {
                 let radius = (thin * thin + thick * thick).sqrt();

@@ -17,7 +17,7 @@ const BEND_BITS: u32 = 4;
 /// An edge that is bent by less than this is straight.
 const STRAIGHT: f64 = 0.01;
 /// An edge that cuts off less than this (its length, in sides of the square) is taken to be straight.
-const SHORT: f64 = 0.15;
+const SHORT: f64 = 0.25;
 
 /// A side of a square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -12,7 +12,7 @@ use durer_math::DVec2;
 /// Thinner things are not looked for more closely: the samples are then so close to each other.
 const MOST_LEVEL: u8 = 6;
 /// Squares that a thing reaches into with less than this part of its radius may miss it.
-const HEART: f64 = 0.36;
+const HEART: f64 = 0.45;
 /// Rows in a bucket.
 const BUCKET: u32 = 32;
 
