@@ -3,7 +3,7 @@
 use durer_imaging::{Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, Image, decode, encode};
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 
 /// A place for a picture, found to be writable before any work is done for it.
@@ -30,6 +30,15 @@ pub enum WriteError {
         /// The folder.
         folder: PathBuf,
     },
+    /// The disk is full, or files may not be so large.
+    NoRoom {
+        /// The picture.
+        path: PathBuf,
+        /// The bytes that it may take.
+        bytes: u64,
+        /// The system's words.
+        error: io::Error,
+    },
     /// The system refused.
     Io {
         /// The file it refused.
@@ -53,19 +62,28 @@ impl PictureFile {
     /// Makes sure that a file can be written at `path`, by opening a temporary one beside it.
     pub fn create(path: &Path) -> Result<PictureFile, WriteError> {
         let io = |error| WriteError::Io { path: path.to_owned(), error };
-        let name = path.file_name().ok_or_else(|| io(io::ErrorKind::InvalidFilename.into()))?;
+        path.file_name().ok_or_else(|| io(io::ErrorKind::InvalidFilename.into()))?;
         if path.is_dir() {
             return Err(io(io::ErrorKind::IsADirectory.into()));
         }
-        let mut hidden = OsString::from(".");
-        hidden.push(name);
-        hidden.push(format!(".{}.part", std::process::id()));
-        let temporary = path.with_file_name(hidden);
+        let temporary = temporary_beside(path);
         let file = File::create(&temporary).map_err(|error| match missing_folder(path) {
             Some(folder) => WriteError::NoFolder { path: path.to_owned(), folder: folder.to_owned() },
             None => io(error),
         })?;
         Ok(PictureFile { path: path.to_owned(), temporary, file: Some(file) })
+    }
+
+    /// Fills the temporary file with so many bytes, so that the picture has room in the end, whatever else is written to
+    /// the disk until then.
+    ///
+    /// # Errors
+    ///
+    /// There is not so much room.
+    pub fn reserve(&mut self, bytes: u64) -> Result<(), WriteError> {
+        let Some(file) = &mut self.file else { return Ok(()) };
+        let filled = fill(file, bytes).and_then(|()| file.rewind());
+        filled.map_err(|error| WriteError::NoRoom { path: self.path.clone(), bytes, error })
     }
 
     /// The file that is there until the picture is written.
@@ -84,7 +102,10 @@ impl PictureFile {
     pub fn write(mut self, image: &Image, options: &EncodeOptions) -> Result<usize, WriteError> {
         let bytes = encode(image, options).map_err(WriteError::Encode)?;
         let written = match self.file.take() {
-            Some(mut file) => file.write_all(&bytes).and_then(|()| file.sync_all()),
+            // What was reserved is written over first and cut off then, so that no one else can take the room.
+            Some(mut file) => {
+                file.write_all(&bytes).and_then(|()| file.set_len(bytes.len() as u64)).and_then(|()| file.sync_all())
+            }
             None => Ok(()),
         };
         written
@@ -100,6 +121,45 @@ impl Drop for PictureFile {
         // After a successful rename there is nothing to remove.
         let _ = fs::remove_file(&self.temporary);
     }
+}
+
+/// The name under which this process writes a file before it gets its own name.
+pub fn temporary_beside(path: &Path) -> PathBuf {
+    let mut hidden = OsString::from(".");
+    hidden.push(path.file_name().unwrap_or_default());
+    hidden.push(format!(".{}.part", std::process::id()));
+    path.with_file_name(hidden)
+}
+
+/// Writes a file whole or not at all: under [a temporary name](temporary_beside) first. What was there stays until the new
+/// one is safely on the disk.
+///
+/// # Errors
+///
+/// The system refuses; then nothing is changed.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let temporary = temporary_beside(path);
+    let written = File::create(&temporary)
+        .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
+        .and_then(|()| fs::rename(&temporary, path));
+    if written.is_err() {
+        // There may be none; the error that matters is the first one.
+        let _ = fs::remove_file(&temporary);
+    }
+    written
+}
+
+/// Writes so many zeros: the one way to take room on a disk that every system knows.
+fn fill(file: &mut File, bytes: u64) -> io::Result<()> {
+    let zeros = [0; 1 << 16];
+    let mut left = bytes;
+    while left > 0 {
+        let length = left.min(zeros.len() as u64);
+        file.write_all(&zeros[..length as usize])?;
+        left -= length;
+    }
+    // Some systems look for the room only now.
+    file.sync_all()
 }
 
 fn missing_folder(path: &Path) -> Option<&Path> {
@@ -119,6 +179,10 @@ impl std::fmt::Display for WriteError {
             WriteError::NoFolder { path, folder } => {
                 let (path, folder) = (path.display(), folder.display());
                 write!(f, "cannot write {path}: there is no folder `{folder}`; create it first")
+            }
+            WriteError::NoRoom { path, bytes, error } => {
+                let path = path.display();
+                write!(f, "cannot write {path}, which may take {bytes} bytes: {error}")
             }
             WriteError::Io { path, error } => write!(f, "cannot write {}: {error}", path.display()),
         }
@@ -165,6 +229,31 @@ mod tests {
         assert_eq!(fs::read(&path).unwrap(), b"old");
         assert!(folder.path().join("b.png").exists());
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+    }
+
+    #[test]
+    fn reserved_room_is_given_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let mut file = PictureFile::create(&path).unwrap();
+        file.reserve(100_000).unwrap();
+        assert_eq!(fs::metadata(file.temporary()).unwrap().len(), 100_000);
+        let written = file.write(&Image::new(2, 2), &EncodeOptions::default()).unwrap();
+        assert_eq!(fs::metadata(&path).unwrap().len(), written as u64);
+        assert!(read_picture(&path, &DecodeLimits::default()).is_ok());
+    }
+
+    #[test]
+    fn a_file_is_written_whole_or_stays_as_it_was() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        write_whole(&path, b"old").unwrap();
+        write_whole(&path, b"new").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        let taken = folder.path().join("taken");
+        fs::create_dir(&taken).unwrap();
+        assert!(write_whole(&taken, b"new").is_err());
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "nothing temporary is left");
     }
 
     #[test]

@@ -15,8 +15,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod checkpoint;
 mod files;
+mod scene_hash;
 
+pub use checkpoint::{Checkpoint, CheckpointError, Origin, encode_checkpoint, read_checkpoint};
 pub use durer_formats::{
     AssetError, Assets, Diagnostic, Diagnostics, FolderAssets, Limits, LoadOptions, Loaded, NoAssets, Related,
     Severity, json_schema, load_bytes, load_file, load_str, reference_markdown, to_yaml,
@@ -24,11 +27,12 @@ pub use durer_formats::{
 pub use durer_imaging as imaging;
 pub use durer_math as math;
 pub use durer_render::{
-    BadSample, Bounds, CompiledScene, Contribution, Element, Film, GeometryMemory, HeatMap, HitExplanation,
+    BadSample, Bounds, CompiledScene, Contribution, Element, Film, FilmParts, GeometryMemory, HeatMap, HitExplanation,
     HoleExplanation, LightExplanation, NotTraced, PixelExplanation, Progress, RayCounts, RayExplanation, RayKind,
     Region, RenderError, RenderOptions, SampleExplanation, Source, compile, explain, heatmap, render, render_on,
     with_threads,
 };
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};
-pub use files::{PictureFile, ReadError, WriteError, read_picture};
+pub use files::{PictureFile, ReadError, WriteError, read_picture, temporary_beside, write_whole};
+pub use scene_hash::{SceneHash, scene_hash};

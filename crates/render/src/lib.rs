@@ -31,7 +31,7 @@ pub use explain::{
     Contribution, Element, HitExplanation, HoleExplanation, LightExplanation, PixelExplanation, RayExplanation,
     SampleExplanation, explain,
 };
-pub use film::{BadSample, Film, Region};
+pub use film::{BadSample, Film, FilmParts, Region};
 pub use heatmap::{HeatMap, heatmap};
 pub use observer::{NotTraced, RayCounts, RayKind, Source};
 pub use schedule::{Progress, RenderError, RenderOptions, render, render_on, with_threads};
