@@ -47,14 +47,20 @@ impl SceneArgs {
     /// The outer one if the file cannot be read, the inner one if it is wrong.
     pub(crate) fn try_load(&self, show: Show) -> Result<Result<Loaded, Diagnostics>, Failure> {
         readable(&self.path)?;
-        let _phase = Phase::begin(format!("reading {}", self.name()), show);
+        let _phase = Phase::begin("reading", &self.name(), show);
         Ok(durer::load_file(&self.path, &self.options()))
     }
 
     /// Makes a loaded scene ready for rays.
     pub(crate) fn compile(&self, scene: &CheckedScene, show: Show) -> CompiledScene {
-        let _phase = Phase::begin(format!("building {}", self.name()), show);
+        let _phase = Phase::begin("building", &self.name(), show);
         durer::compile(scene)
+    }
+
+    /// Makes its paths relative to another folder than this one.
+    pub(crate) fn move_to(&mut self, folder: &Path) {
+        self.path = folder.join(&self.path);
+        self.allow_path.iter_mut().for_each(|path| *path = folder.join(&*path));
     }
 
     fn options(&self) -> LoadOptions {

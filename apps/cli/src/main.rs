@@ -11,6 +11,7 @@ mod load;
 mod numbers;
 mod output;
 mod overrides;
+mod pace;
 mod progress;
 mod target;
 

@@ -106,7 +106,7 @@ impl Arguments {
         let never = AtomicBool::new(false);
         durer::with_threads(self.threads.map(usize::from), || {
             let compiled = self.scene.compile(scene, self.show());
-            let bar = Bar::new(&never, self.show());
+            let bar = Bar::new(&never, 0, self.show());
             let map = durer::heatmap(&compiled, &RenderOptions::default(), &bar);
             bar.finish();
             Ok(map?)

@@ -39,7 +39,7 @@ fn a_changed_file_is_named() {
     put("c.csv", "x,y,z\n1,2,3\n");
     put(
         "scene.yaml",
-        "objects:\n  - import: a.obj\n  - mesh: {file: a.obj}\n  - spheres: {centers: c.csv, radius: 1}\n",
+        "objects:\n  - import: {file: a.obj}\n  - mesh: {file: a.obj}\n  - spheres: {centers: c.csv, radius: 1}\n",
     );
     let hash = || {
         let loaded = load_file(folder.path().join("scene.yaml"), &LoadOptions::default());

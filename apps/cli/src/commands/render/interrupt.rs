@@ -3,14 +3,14 @@
 use crate::{exit, output};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, PoisonError};
 
-/// Watches for Ctrl-C, and knows the temporary file, so that none is left behind if the program must end at once.
+/// Watches for Ctrl-C, and knows the temporary files, so that none is left behind if the program must end at once.
 ///
-/// It knows the name only: what it has is never dropped, for the system may call it until the end.
+/// It knows the names only: what it has is never dropped, for the system may call it until the end.
 pub(super) struct Interrupt {
     stop: Arc<AtomicBool>,
-    temporary: Arc<OnceLock<PathBuf>>,
+    temporary: Arc<Mutex<Vec<PathBuf>>>,
 }
 
 impl Interrupt {
@@ -20,7 +20,7 @@ impl Interrupt {
         let (stop, temporary) = (Arc::clone(&interrupt.stop), Arc::clone(&interrupt.temporary));
         let pressed = move || {
             if stop.swap(true, Ordering::Relaxed) {
-                if let Some(temporary) = temporary.get() {
+                for temporary in &*temporary.lock().unwrap_or_else(PoisonError::into_inner) {
                     // It may have got its name just now.
                     let _ = std::fs::remove_file(temporary);
                 }
@@ -33,10 +33,9 @@ impl Interrupt {
         interrupt
     }
 
-    /// The file that the second Ctrl-C removes.
+    /// A file that the second Ctrl-C removes.
     pub(super) fn removes(&self, temporary: &Path) {
-        // There is but one.
-        let _ = self.temporary.set(temporary.to_owned());
+        self.temporary.lock().unwrap_or_else(PoisonError::into_inner).push(temporary.to_owned());
     }
 
     /// True from the first Ctrl-C on.

@@ -18,6 +18,8 @@ pub(super) struct Report {
     region: Region,
     finished: u64,
     rays: RayCounts,
+    /// Rays of an earlier run that this one goes on with.
+    rays_before: u64,
     bad_samples: u64,
     first_bad_sample: Option<BadSample>,
     bytes: usize,
@@ -43,6 +45,7 @@ impl Report {
             region: film.region(),
             finished: film.finished_pixels(),
             rays: film.rays(),
+            rays_before: 0,
             bad_samples: film.bad_samples(),
             first_bad_sample: film.first_bad_sample(),
             bytes: 0,
@@ -53,6 +56,11 @@ impl Report {
     /// With the time that the steps took.
     pub(super) fn with_seconds(self, seconds: Seconds) -> Report {
         Report { seconds, ..self }
+    }
+
+    /// Goes on with a run that traced so many rays.
+    pub(super) fn after(self, rays_before: u64) -> Report {
+        Report { rays_before, ..self }
     }
 
     /// What the picture is called if it is not complete: `room.partial.png` in place of `room.png`.
@@ -84,12 +92,13 @@ impl Report {
         self.finished == self.pixels()
     }
 
-    fn pixels(&self) -> u64 {
+    pub(super) fn pixels(&self) -> u64 {
         u64::from(self.region.width) * u64::from(self.region.height)
     }
 
     fn mrays_per_second(&self) -> f64 {
-        if self.seconds.render > 0.0 { self.rays.total() as f64 / self.seconds.render / 1e6 } else { 0.0 }
+        let rays = self.rays.total().saturating_sub(self.rays_before);
+        if self.seconds.render > 0.0 { rays as f64 / self.seconds.render / 1e6 } else { 0.0 }
     }
 
     /// The line at the end.
