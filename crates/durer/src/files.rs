@@ -1,7 +1,8 @@
 //! Picture files: written whole or not at all.
 
+use crate::whole::{self, temporary_beside};
 use durer_imaging::{Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, Image, decode, encode};
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -67,7 +68,7 @@ impl PictureFile {
             return Err(io(io::ErrorKind::IsADirectory.into()));
         }
         let temporary = temporary_beside(path);
-        let file = File::create(&temporary).map_err(|error| match missing_folder(path) {
+        let file = whole::create(path).map_err(|error| match missing_folder(path) {
             Some(folder) => WriteError::NoFolder { path: path.to_owned(), folder: folder.to_owned() },
             None => io(error),
         })?;
@@ -82,7 +83,7 @@ impl PictureFile {
     /// There is not so much room.
     pub fn reserve(&mut self, bytes: u64) -> Result<(), WriteError> {
         let Some(file) = &mut self.file else { return Ok(()) };
-        let filled = fill(file, bytes).and_then(|()| file.rewind());
+        let filled = whole::fill(file, bytes).and_then(|()| file.rewind());
         filled.map_err(|error| WriteError::NoRoom { path: self.path.clone(), bytes, error })
     }
 
@@ -101,14 +102,14 @@ impl PictureFile {
     /// Writes the picture and gives it its name; gives the number of bytes.
     pub fn write(mut self, image: &Image, options: &EncodeOptions) -> Result<usize, WriteError> {
         let bytes = encode(image, options).map_err(WriteError::Encode)?;
-        let written = match self.file.take() {
-            // What was reserved is written over first and cut off then, so that no one else can take the room.
-            Some(mut file) => {
-                file.write_all(&bytes).and_then(|()| file.set_len(bytes.len() as u64)).and_then(|()| file.sync_all())
-            }
+        // What was reserved is written over first and cut off then, so that no one else can take the room; and the file
+        // stays open, and so locked, until it has its name.
+        let written = match &mut self.file {
+            Some(file) => file.write_all(&bytes).and_then(|()| file.set_len(bytes.len() as u64)),
             None => Ok(()),
         };
-        written
+        let synced = written.and_then(|()| self.file.as_ref().map_or(Ok(()), File::sync_all));
+        synced
             .and_then(|()| fs::rename(&self.temporary, &self.path))
             .map_err(|error| WriteError::Io { path: self.path.clone(), error })?;
         Ok(bytes.len())
@@ -121,45 +122,6 @@ impl Drop for PictureFile {
         // After a successful rename there is nothing to remove.
         let _ = fs::remove_file(&self.temporary);
     }
-}
-
-/// The name under which this process writes a file before it gets its own name.
-pub fn temporary_beside(path: &Path) -> PathBuf {
-    let mut hidden = OsString::from(".");
-    hidden.push(path.file_name().unwrap_or_default());
-    hidden.push(format!(".{}.part", std::process::id()));
-    path.with_file_name(hidden)
-}
-
-/// Writes a file whole or not at all: under [a temporary name](temporary_beside) first. What was there stays until the new
-/// one is safely on the disk.
-///
-/// # Errors
-///
-/// The system refuses; then nothing is changed.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let temporary = temporary_beside(path);
-    let written = File::create(&temporary)
-        .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
-        .and_then(|()| fs::rename(&temporary, path));
-    if written.is_err() {
-        // There may be none; the error that matters is the first one.
-        let _ = fs::remove_file(&temporary);
-    }
-    written
-}
-
-/// Writes so many zeros: the one way to take room on a disk that every system knows.
-fn fill(file: &mut File, bytes: u64) -> io::Result<()> {
-    let zeros = [0; 1 << 16];
-    let mut left = bytes;
-    while left > 0 {
-        let length = left.min(zeros.len() as u64);
-        file.write_all(&zeros[..length as usize])?;
-        left -= length;
-    }
-    // Some systems look for the room only now.
-    file.sync_all()
 }
 
 fn missing_folder(path: &Path) -> Option<&Path> {
@@ -241,19 +203,6 @@ mod tests {
         let written = file.write(&Image::new(2, 2), &EncodeOptions::default()).unwrap();
         assert_eq!(fs::metadata(&path).unwrap().len(), written as u64);
         assert!(read_picture(&path, &DecodeLimits::default()).is_ok());
-    }
-
-    #[test]
-    fn a_file_is_written_whole_or_stays_as_it_was() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a");
-        write_whole(&path, b"old").unwrap();
-        write_whole(&path, b"new").unwrap();
-        assert_eq!(fs::read(&path).unwrap(), b"new");
-        let taken = folder.path().join("taken");
-        fs::create_dir(&taken).unwrap();
-        assert!(write_whole(&taken, b"new").is_err());
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "nothing temporary is left");
     }
 
     #[test]

@@ -18,6 +18,7 @@
 mod checkpoint;
 mod files;
 mod scene_hash;
+mod whole;
 
 pub use checkpoint::{Checkpoint, CheckpointError, Origin, encode_checkpoint, read_checkpoint};
 pub use durer_formats::{
@@ -34,5 +35,6 @@ pub use durer_render::{
 };
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};
-pub use files::{PictureFile, ReadError, WriteError, read_picture, temporary_beside, write_whole};
+pub use files::{PictureFile, ReadError, WriteError, read_picture};
 pub use scene_hash::{SceneHash, scene_hash};
+pub use whole::{temporary_beside, write_whole};

@@ -12,8 +12,8 @@ Examples:
   durer resume room.png.durer-checkpoint
   durer resume night.checkpoint --threads 2 --progress json
 
-The checkpoint knows the scene, its settings and the picture file; the picture is, byte for
-byte, that of a render that was never cut short. If the scene or one of its files has
+The checkpoint knows the scene, its settings and the picture file; the picture is, byte
+for byte, that of a render that was never cut short. If the scene or one of its files has
 changed since, that is an error. The checkpoint is removed when the picture is written.";
 
 /// Go on with a render from its checkpoint

@@ -104,7 +104,7 @@ impl Job<'_> {
         }
         match read_checkpoint(path) {
             Ok(old) if old.film.region() == region && old.scene == *saver.hash() => {
-                saver.owns_file();
+                saver.found(&old.film);
                 if !self.manner.quiet {
                     let share = 100.0 * old.film.finished_pixels() as f64 / region.pixels() as f64;
                     let (path, share) = (path.display(), short(share.floor()));
@@ -249,7 +249,7 @@ fn fitting(checkpoint: Checkpoint, saver: &Saver<'_>, region: Region) -> Result<
     if checkpoint.film.region() != region {
         return Err(Failure::file(format!("cannot go on with {path}: it is not of the part that it says")));
     }
-    saver.owns_file();
+    saver.found(&checkpoint.film);
     Ok(checkpoint.film)
 }
 

@@ -23,7 +23,7 @@ pub(super) enum When {
     Always,
     /// If the render turns out to be long.
     IfLong,
-    /// Not unless the picture itself cannot be written.
+    /// Not even if the picture cannot be written.
     Never,
 }
 
@@ -46,6 +46,8 @@ struct Turn {
     /// The file at the path is that of this render.
     is_ours: bool,
     has_failed: bool,
+    /// The file at the path has so many finished pixels from an earlier run; one with fewer does not take its place.
+    at_least: u64,
     next: Instant,
 }
 
@@ -64,14 +66,17 @@ impl<'a> Saver<'a> {
         (when, every): (When, Duration),
     ) -> Saver<'a> {
         let next = Instant::now() + every;
-        let turn = Turn { when, is_busy: false, is_ours: false, has_failed: false, next };
+        let turn = Turn { when, is_busy: false, is_ours: false, has_failed: false, at_least: 0, next };
         let (hash, turn, writer) = (OnceLock::new(), Arc::new(Mutex::new(turn)), Mutex::new(None));
         Saver { path, origin, scene, hash, every, turn, writer }
     }
 
-    /// The file at the path holds a part of this render: it is to go when the picture is written.
-    pub(super) fn owns_file(&self) {
-        lock(&self.turn).is_ours = true;
+    /// The file at the path holds this film, of this very render: it is to go when the picture is written, and is not
+    /// replaced by less.
+    pub(super) fn found(&self, film: &Film) {
+        let mut turn = lock(&self.turn);
+        turn.is_ours = true;
+        turn.at_least = film.finished_pixels();
     }
 
     pub(super) fn path(&self) -> &Path {
@@ -91,7 +96,8 @@ impl<'a> Saver<'a> {
             turn.when = When::Always;
             turn.next = Instant::now();
         }
-        if turn.when != When::Always || turn.is_busy || Instant::now() < turn.next || film.is_complete() {
+        let is_time = turn.when == When::Always && !turn.is_busy && Instant::now() >= turn.next;
+        if !is_time || film.is_complete() || film.finished_pixels() <= turn.at_least {
             return;
         }
         turn.is_busy = true;
@@ -138,10 +144,11 @@ impl<'a> Saver<'a> {
         turn.is_ours || turn.when == When::Always
     }
 
-    /// Writes a last checkpoint, now.
+    /// Writes a last checkpoint, now, unless there is one with more on it.
     pub(super) fn save(&self, film: &Film) -> io::Result<()> {
-        write_whole(&self.path, &encode_checkpoint(&self.origin, self.hash(), film))?;
-        self.owns_file();
+        if film.finished_pixels() > lock(&self.turn).at_least {
+            write_whole(&self.path, &encode_checkpoint(&self.origin, self.hash(), film))?;
+        }
         Ok(())
     }
 
