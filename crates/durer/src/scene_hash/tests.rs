@@ -2,6 +2,8 @@
 
 use super::*;
 use durer_formats::{LoadOptions, NoAssets, load_file, load_str};
+use durer_imaging::{EncodeOptions, Image, encode};
+use durer_math::Rgb;
 use std::fs;
 
 fn hash(text: &str) -> SceneHash {
@@ -35,11 +37,16 @@ fn a_changed_file_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let put = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     put("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    put("b.xyz", "1\n\nC 0 0 0\n");
     put("c.csv", "x,y,z\n1,2,3\n");
+    let put_image = |gray: f32| {
+        let image = Image::from_fn(2, 2, |_, _| Rgb::new(gray, gray, gray));
+        fs::write(folder.path().join("d.png"), encode(&image, &EncodeOptions::default()).unwrap()).unwrap();
+    };
+    put_image(0.5);
     put(
         "scene.yaml",
-        "objects:\n  - import: {file: a.obj}\n  - mesh: {file: a.obj}\n  - spheres: {centers: c.csv, radius: 1}\n",
+        "objects:\n  - import: {file: a.obj}\n  - mesh: {file: a.obj}\n  - spheres: {centers: c.csv, radius: 1}\n  \
+         - sphere: {material: {color: {image: {file: d.png}}}}\n",
     );
     let hash = || {
         let loaded = load_file(folder.path().join("scene.yaml"), &LoadOptions::default());
@@ -53,4 +60,6 @@ fn a_changed_file_is_named() {
     assert_eq!(before.differences(&hash()), ["a.obj", "c.csv"]);
     assert_eq!(moved.differences(&hash()), ["a.obj"]);
     assert_eq!(hash().differences(&hash()), [""; 0]);
+    put_image(0.6);
+    assert_eq!(before.differences(&hash()), ["a.obj", "c.csv", "d.png"]);
 }
