@@ -1,23 +1,6 @@
 //! Checkpoints: a film that is not finished, in a file, with all that it takes to go on with it.
 //!
-//! The file, in little-endian numbers; a text is its length in bytes (`u32`) and UTF-8:
-//!
-//! | bytes | what |
-//! |---|---|
-//! | 8 | `durer`, then 1A, 0D, 0A (hexadecimal) |
-//! | 4 | version of this format: 1 |
-//! | text | version of durer, for only the same one surely makes the same pixels |
-//! | text | [`Origin::folder`] |
-//! | 4, texts | [`Origin::words`]: how many, and each |
-//! | 4, (text, 16 bytes) | [`SceneHash`]: how many parts, and name and hash of each |
-//! | 16 | region: left, top, width, height |
-//! | 40 | rays: of the eye, reflected, transmitted, shadow, cut off |
-//! | 8 | samples whose color was not finite |
-//! | 1, 16 | whether there is a first of them (0, 1), and its x and y (0 if there is none) |
-//! | tiles | for each tile of 32 × 32 pixels, row by row, whether it is finished (0, 1) |
-//! | 12 × pixels | colors in linear light, row by row: red, green, blue in single precision |
-//! | pixels | how often each pixel was divided |
-//! | 16 | XXH3 with 128 bits of all bytes before |
+//! Their bytes are described in `docs/checkpoint.md`.
 
 mod format;
 
