@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use crate::commands::{check, compare, completions, explain, heatmap, info, man, render};
+use crate::commands::{check, compare, completions, explain, heatmap, info, man, render, resume};
 use crate::exit::EXIT_CODES;
 use clap::{Parser, Subcommand};
 
@@ -25,6 +25,7 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Render(render::Arguments),
+    Resume(resume::Arguments),
     Check(check::Arguments),
     Info(info::Arguments),
     Explain(explain::Arguments),

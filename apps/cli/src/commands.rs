@@ -8,6 +8,7 @@ pub(crate) mod heatmap;
 pub(crate) mod info;
 pub(crate) mod man;
 pub(crate) mod render;
+pub(crate) mod resume;
 mod schema;
 
 use crate::args::Command;
@@ -17,6 +18,7 @@ use crate::exit::{Exit, Failure};
 pub(crate) fn run(command: &Command) -> Result<Exit, Failure> {
     match command {
         Command::Render(arguments) => render::run(arguments),
+        Command::Resume(arguments) => resume::run(arguments),
         Command::Check(arguments) => check::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),

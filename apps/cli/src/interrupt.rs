@@ -5,17 +5,17 @@ use crate::exit::{self, Exit, Failure};
 use crate::output;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Knows whether to stop, and the temporary file, so that none is left behind if the program must end at once.
+/// Knows whether to stop, and the temporary files, so that none is left behind if the program must end at once.
 ///
-/// It knows the name only: what it has is never dropped, for the system may call it until the end.
+/// It knows the names only: what it has is never dropped, for the system may call it until the end.
 #[derive(Clone)]
 pub(crate) struct Interrupt {
     stop: Arc<AtomicBool>,
     timed_out: Arc<AtomicBool>,
-    temporary: Arc<OnceLock<PathBuf>>,
+    temporary: Arc<Mutex<Vec<PathBuf>>>,
 }
 
 impl Interrupt {
@@ -35,7 +35,7 @@ impl Interrupt {
         self.timed_out.store(true, Ordering::Relaxed);
         self.stop.store(true, Ordering::Relaxed);
         std::thread::sleep((limit / 10).max(Duration::from_secs(1)));
-        self.remove_temporary();
+        self.remove_temporaries();
         output::error(&format!("the time limit of {} s is reached (see `--limits time`)", limit.as_secs()));
         exit::at_once();
     }
@@ -45,7 +45,7 @@ impl Interrupt {
         let watched = self.clone();
         let pressed = move || {
             if watched.stop.swap(true, Ordering::Relaxed) {
-                watched.remove_temporary();
+                watched.remove_temporaries();
                 exit::at_once();
             }
         };
@@ -54,17 +54,16 @@ impl Interrupt {
         }
     }
 
-    fn remove_temporary(&self) {
-        if let Some(temporary) = self.temporary.get() {
+    fn remove_temporaries(&self) {
+        for temporary in &*self.temporary.lock().unwrap_or_else(PoisonError::into_inner) {
             // It may have got its name just now.
             let _ = std::fs::remove_file(temporary);
         }
     }
 
-    /// The file that is removed if the program must end at once.
+    /// A file that is removed if the program must end at once.
     pub(crate) fn removes(&self, temporary: &Path) {
-        // There is but one.
-        let _ = self.temporary.set(temporary.to_owned());
+        self.temporary.lock().unwrap_or_else(PoisonError::into_inner).push(temporary.to_owned());
     }
 
     /// True once the run is to stop.

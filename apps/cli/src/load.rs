@@ -58,7 +58,7 @@ impl SceneArgs {
     /// The outer one if the file cannot be read, the inner one if it is wrong.
     pub(crate) fn try_load(&self, show: Show) -> Result<Result<Loaded, Diagnostics>, Failure> {
         readable(&self.path)?;
-        let _phase = Phase::begin(format!("reading {}", self.name()), show);
+        let _phase = Phase::begin("reading", &self.name(), show);
         Ok(durer::load_file(&self.path, &self.options()))
     }
 
@@ -75,7 +75,7 @@ impl SceneArgs {
         show: Show,
     ) -> Result<CompiledScene, Failure> {
         self.admit(scene)?;
-        let _phase = Phase::begin(format!("building {}", self.name()), show);
+        let _phase = Phase::begin("building", &self.name(), show);
         Ok(durer::compile_for(scene, simd))
     }
 
@@ -91,6 +91,12 @@ impl SceneArgs {
     /// How long the run may take.
     pub(crate) fn time_limit(&self) -> Option<Duration> {
         Some(self.limits.max_seconds).filter(|seconds| *seconds < u64::MAX).map(Duration::from_secs)
+    }
+
+    /// Makes its paths relative to another folder than this one.
+    pub(crate) fn move_to(&mut self, folder: &Path) {
+        self.path = folder.join(&self.path);
+        self.allow_path.iter_mut().for_each(|path| *path = folder.join(&*path));
     }
 
     fn options(&self) -> LoadOptions {

@@ -12,6 +12,7 @@ mod load;
 mod numbers;
 mod output;
 mod overrides;
+mod pace;
 mod progress;
 mod provenance;
 mod target;

@@ -191,24 +191,27 @@ fn two_numbers(numbers: Option<&str>, (threshold, depth): (f32, u32)) -> Option<
 
 fn filter(text: &str) -> Result<PixelFilter, String> {
     let wrong = || {
-        "expected `box`, `tent`, `gaussian`, `mitchell` or `blackman_harris`, and `:RADIUS` if it is to be \
-        another one than usual"
+        "expected `box`, `tent[:RADIUS]`, `gaussian[:RADIUS[,SIGMA]]`, `mitchell[:RADIUS]` or `blackman_harris[:RADIUS]`"
             .to_owned()
     };
-    let (kind, radius) = match text.split_once(':') {
-        Some((kind, radius)) => (kind, Some(radius.parse::<f64>().map_err(|_| wrong())?)),
-        None => (text, None),
+    let (kind, numbers) = match text.split_once(':') {
+        Some((kind, numbers)) => (kind, numbers.split(',').map(str::parse).collect::<Result<Vec<f64>, _>>()),
+        None => (text, Ok(Vec::new())),
     };
-    match kind {
-        "box" if radius.is_none() => Ok(PixelFilter::Box),
-        "tent" => Ok(PixelFilter::Tent { radius: radius.unwrap_or(1.0) }),
+    let numbers = numbers.map_err(|_| wrong())?;
+    // What scene files take where a radius is not given.
+    match (kind, &numbers[..]) {
+        ("box", []) => Ok(PixelFilter::Box),
+        ("tent", []) => Ok(PixelFilter::Tent { radius: 1.0 }),
+        ("tent", &[radius]) => Ok(PixelFilter::Tent { radius }),
+        ("gaussian", []) => Ok(PixelFilter::Gaussian { radius: 1.5, sigma: 0.5 }),
         // The bell keeps its form, whatever its radius.
-        "gaussian" => {
-            let radius = radius.unwrap_or(1.5);
-            Ok(PixelFilter::Gaussian { radius, sigma: radius / 3.0 })
-        }
-        "mitchell" => Ok(PixelFilter::Mitchell { radius: radius.unwrap_or(2.0) }),
-        "blackman_harris" | "blackman-harris" => Ok(PixelFilter::BlackmanHarris { radius: radius.unwrap_or(1.5) }),
+        ("gaussian", &[radius]) => Ok(PixelFilter::Gaussian { radius, sigma: radius / 3.0 }),
+        ("gaussian", &[radius, sigma]) => Ok(PixelFilter::Gaussian { radius, sigma }),
+        ("mitchell", []) => Ok(PixelFilter::Mitchell { radius: 2.0 }),
+        ("mitchell", &[radius]) => Ok(PixelFilter::Mitchell { radius }),
+        ("blackman_harris" | "blackman-harris", []) => Ok(PixelFilter::BlackmanHarris { radius: 1.5 }),
+        ("blackman_harris" | "blackman-harris", &[radius]) => Ok(PixelFilter::BlackmanHarris { radius }),
         _ => Err(wrong()),
     }
 }
@@ -248,7 +251,7 @@ mod tests {
             assert_eq!(Ok(of(&format!("filter: {word}")).1), filter(word));
         }
         assert_eq!(filter("tent:2"), Ok(PixelFilter::Tent { radius: 2.0 }));
-        for wrong in ["", "tent:", "box:1", "gauss", "tent:x"] {
+        for wrong in ["", "tent:", "box:1", "gauss", "tent:x", "tent:1,2", "gaussian:1,2,3"] {
             assert!(filter(wrong).is_err(), "{wrong}");
         }
     }

@@ -1,7 +1,7 @@
 //! What a picture says of where it comes from. Neither time nor place nor name, for the same scene with the same settings
 //! gives the same bytes everywhere. There is no seed, since nothing is random.
 
-use crate::commands::info::{antialias_text, transfer_word};
+use crate::commands::info::{antialias_text, filter_text, transfer_word};
 use durer::Region;
 use durer::math::Fingerprint;
 use durer::scene::{Picture, Scene};
@@ -21,6 +21,7 @@ pub(crate) fn of_render(loaded: Fingerprint, rendered: &Scene, crop: Option<Regi
         entry("Size", format!("{width}x{height}")),
         entry("Transfer", transfer_word(transfer)),
         entry("Antialias", antialias_text(settings.antialias)),
+        entry("Filter", filter_text(settings.filter)),
         entry("Max depth", settings.max_depth.to_string()),
         entry("Min weight", settings.min_weight.to_string()),
     ];

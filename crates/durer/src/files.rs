@@ -1,11 +1,12 @@
 //! Picture files: written whole or not at all.
 
+use crate::whole::{self, temporary_beside};
 use durer_imaging::{
     Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, FileFacts, Image, about, decode, encode,
 };
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsStr;
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 
 /// A place for a picture, found to be writable before any work is done for it.
@@ -32,6 +33,15 @@ pub enum WriteError {
         /// The folder.
         folder: PathBuf,
     },
+    /// The disk is full, or files may not be so large.
+    NoRoom {
+        /// The picture.
+        path: PathBuf,
+        /// The bytes that it may take.
+        bytes: u64,
+        /// The system's words.
+        error: io::Error,
+    },
     /// The system refused.
     Io {
         /// The file it refused.
@@ -55,19 +65,28 @@ impl PictureFile {
     /// Makes sure that a file can be written at `path`, by opening a temporary one beside it.
     pub fn create(path: &Path) -> Result<PictureFile, WriteError> {
         let io = |error| WriteError::Io { path: path.to_owned(), error };
-        let name = path.file_name().ok_or_else(|| io(io::ErrorKind::InvalidFilename.into()))?;
+        path.file_name().ok_or_else(|| io(io::ErrorKind::InvalidFilename.into()))?;
         if path.is_dir() {
             return Err(io(io::ErrorKind::IsADirectory.into()));
         }
-        let mut hidden = OsString::from(".");
-        hidden.push(name);
-        hidden.push(format!(".{}.part", std::process::id()));
-        let temporary = path.with_file_name(hidden);
-        let file = File::create(&temporary).map_err(|error| match missing_folder(path) {
+        let temporary = temporary_beside(path);
+        let file = whole::create(path).map_err(|error| match missing_folder(path) {
             Some(folder) => WriteError::NoFolder { path: path.to_owned(), folder: folder.to_owned() },
             None => io(error),
         })?;
         Ok(PictureFile { path: path.to_owned(), temporary, file: Some(file) })
+    }
+
+    /// Fills the temporary file with so many bytes, so that the picture has room in the end, whatever else is written to
+    /// the disk until then.
+    ///
+    /// # Errors
+    ///
+    /// There is not so much room.
+    pub fn reserve(&mut self, bytes: u64) -> Result<(), WriteError> {
+        let Some(file) = &mut self.file else { return Ok(()) };
+        let filled = whole::fill(file, bytes).and_then(|()| file.rewind());
+        filled.map_err(|error| WriteError::NoRoom { path: self.path.clone(), bytes, error })
     }
 
     /// The file that is there until the picture is written.
@@ -85,11 +104,14 @@ impl PictureFile {
     /// Writes the picture and gives it its name; gives the number of bytes.
     pub fn write(mut self, image: &Image, options: &EncodeOptions) -> Result<usize, WriteError> {
         let bytes = encode(image, options).map_err(WriteError::Encode)?;
-        let written = match self.file.take() {
-            Some(mut file) => file.write_all(&bytes).and_then(|()| file.sync_all()),
+        // What was reserved is written over first and cut off then, so that no one else can take the room; and the file
+        // stays open, and so locked, until it has its name.
+        let written = match &mut self.file {
+            Some(file) => file.write_all(&bytes).and_then(|()| file.set_len(bytes.len() as u64)),
             None => Ok(()),
         };
-        written
+        let synced = written.and_then(|()| self.file.as_ref().map_or(Ok(()), File::sync_all));
+        synced
             .and_then(|()| fs::rename(&self.temporary, &self.path))
             .map_err(|error| WriteError::Io { path: self.path.clone(), error })?;
         Ok(bytes.len())
@@ -127,6 +149,10 @@ impl std::fmt::Display for WriteError {
             WriteError::NoFolder { path, folder } => {
                 let (path, folder) = (path.display(), folder.display());
                 write!(f, "cannot write {path}: there is no folder `{folder}`; create it first")
+            }
+            WriteError::NoRoom { path, bytes, error } => {
+                let path = path.display();
+                write!(f, "cannot write {path}, which may take {bytes} bytes: {error}")
             }
             WriteError::Io { path, error } => write!(f, "cannot write {}: {error}", path.display()),
         }
@@ -173,6 +199,18 @@ mod tests {
         assert_eq!(fs::read(&path).unwrap(), b"old");
         assert!(folder.path().join("b.png").exists());
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+    }
+
+    #[test]
+    fn reserved_room_is_given_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let mut file = PictureFile::create(&path).unwrap();
+        file.reserve(100_000).unwrap();
+        assert_eq!(fs::metadata(file.temporary()).unwrap().len(), 100_000);
+        let written = file.write(&Image::new(2, 2), &EncodeOptions::default()).unwrap();
+        assert_eq!(fs::metadata(&path).unwrap().len(), written as u64);
+        assert!(read_picture(&path, &DecodeLimits::default()).is_ok());
     }
 
     #[test]

@@ -16,9 +16,13 @@
 //! ```
 
 mod admit;
+mod checkpoint;
 mod files;
+mod scene_hash;
+mod whole;
 
 pub use admit::admit;
+pub use checkpoint::{Checkpoint, CheckpointError, Origin, encode_checkpoint, read_checkpoint};
 pub use durer_formats::{
     AssetError, Assets, Diagnostic, Diagnostics, Exceeded, FolderAssets, Limit, Limits, LoadOptions, Loaded,
     MemoryAssets, NoAssets, Related, Severity, Sources, json_schema, load_bytes, load_file, load_str,
@@ -27,7 +31,7 @@ pub use durer_formats::{
 pub use durer_imaging as imaging;
 pub use durer_math as math;
 pub use durer_render::{
-    BadSample, Bounds, CompiledScene, Contribution, Element, Film, GeometryMemory, HeatMap, HitExplanation,
+    BadSample, Bounds, CompiledScene, Contribution, Element, Film, FilmParts, GeometryMemory, HeatMap, HitExplanation,
     HoleExplanation, LightExplanation, NotTraced, PixelExplanation, Progress, RayCounts, RayExplanation, RayKind,
     Region, RenderError, RenderOptions, SampleExplanation, SimdLevel, Source, compile, compile_for, explain, heatmap,
     memory_needed, render, render_on, with_threads,
@@ -35,3 +39,5 @@ pub use durer_render::{
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};
 pub use files::{PictureFile, ReadError, WriteError, picture_facts, read_picture};
+pub use scene_hash::SceneHash;
+pub use whole::{temporary_beside, write_whole};

@@ -137,6 +137,24 @@ impl EncodeOptions {
     }
 }
 
+impl EncodeOptions {
+    /// The most bytes that the file of a picture of this size may take, as if nothing could be compressed.
+    pub fn most_bytes(&self, width: u32, height: u32) -> u64 {
+        let for_each_pixel = match (self.format, self.png_depth, self.exr_samples) {
+            (FileFormat::Png, PngDepth::Sixteen, _) | (FileFormat::Exr, _, ExrSamples::Half) => 6,
+            (FileFormat::Png, PngDepth::Eight, _) => 3,
+            // Noise of the best quality takes almost 4.
+            (FileFormat::Jpeg, ..) => 5,
+            (FileFormat::Exr, _, ExrSamples::Float) | (FileFormat::Pfm, ..) => 12,
+            (FileFormat::Hdr, ..) => 4,
+        };
+        let raw = for_each_pixel * u64::from(width) * u64::from(height);
+        let texts: u64 = self.metadata.iter().map(|(key, text)| (key.len() + 2 * text.len()) as u64).sum();
+        // Beside the numbers: what compressors add where they fail, something for each row, and what stands before all.
+        raw + raw / 64 + 16 * u64::from(height) + 4096 + texts
+    }
+}
+
 impl Default for EncodeOptions {
     /// The usual choices for PNG.
     fn default() -> EncodeOptions {
@@ -242,6 +260,31 @@ mod tests {
             "no picture format has the extension `bmp`; known are png, jpg, exr, hdr and pfm"
         );
         assert!(matches!(FileFormat::from_path(Path::new("a.b/view")), Err(EncodeError::NoExtension)));
+    }
+
+    /// Noise is the worst that there is.
+    #[test]
+    fn no_file_is_larger_than_it_may_be() {
+        let mut state = 1_u32;
+        let mut noise = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / 16_777_216.0
+        };
+        for (width, height) in [(1, 1), (300, 7), (5, 400), (257, 129)] {
+            let pixels = (0..width * height).map(|_| Rgb::new(noise(), noise(), noise())).collect();
+            let image = Image { width, height, pixels };
+            for format in FileFormat::ALL {
+                for (png_depth, exr_samples) in
+                    [(PngDepth::Eight, ExrSamples::Half), (PngDepth::Sixteen, ExrSamples::Float)]
+                {
+                    let options =
+                        EncodeOptions { png_depth, exr_samples, jpeg_quality: 100, ..EncodeOptions::new(format) };
+                    let bytes = encode(&image, &options).unwrap().len() as u64;
+                    let most = options.most_bytes(width, height);
+                    assert!(bytes <= most, "{format:?}, {width} × {height}: {bytes} of {most} bytes");
+                }
+            }
+        }
     }
 
     #[test]

@@ -32,6 +32,25 @@ pub struct Film {
     account: Account,
 }
 
+/// A [`Film`] taken apart, to be stored and put together again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilmParts {
+    /// Part of the picture that it is; not empty.
+    pub region: Region,
+    /// Colours in linear light, row by row: one for each pixel.
+    pub pixels: Vec<Rgb>,
+    /// How often each pixel was divided.
+    pub depths: Vec<u8>,
+    /// Which tiles are finished, row by row: as many as [`Region::tile_count`] says.
+    pub finished: Vec<bool>,
+    /// Rays traced.
+    pub rays: RayCounts,
+    /// Samples whose colour was not finite.
+    pub bad_samples: u64,
+    /// The first of them; there is one exactly if there are any.
+    pub first_bad_sample: Option<BadSample>,
+}
+
 /// How pixels came about.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Account {
@@ -60,6 +79,11 @@ impl Region {
     /// The number of its pixels.
     pub fn pixels(&self) -> u64 {
         u64::from(self.width) * u64::from(self.height)
+    }
+
+    /// The number of tiles that it is cut into.
+    pub fn tile_count(&self) -> u64 {
+        u64::from(self.width.div_ceil(TILE)) * u64::from(self.height.div_ceil(TILE))
     }
 
     /// The columns and rows of its pixels, row by row.
@@ -119,6 +143,19 @@ impl Film {
         }
     }
 
+    /// Puts a film together; `None` if the parts do not fit each other.
+    pub fn from_parts(parts: FilmParts) -> Option<Film> {
+        let FilmParts { region, pixels, depths, finished, rays, bad_samples, first_bad_sample } = parts;
+        let Region { x, y, width, height } = region;
+        let lies_somewhere = x.checked_add(width).is_some() && y.checked_add(height).is_some() && region.pixels() > 0;
+        let all_there = pixels.len() as u64 == region.pixels()
+            && depths.len() == pixels.len()
+            && finished.len() as u64 == region.tile_count();
+        let account_adds_up = (bad_samples > 0) == first_bad_sample.is_some();
+        let account = Account { rays, bad_samples, first_bad_sample };
+        (lies_somewhere && all_there && account_adds_up).then_some(Film { region, pixels, depths, finished, account })
+    }
+
     /// Puts a finished rectangle on the film, which begins at the corner of a tile and ends at the edges of tiles.
     pub(crate) fn put(&mut self, tile: &Tile) {
         let Region { x, y, width, height } = tile.region;
@@ -153,6 +190,16 @@ impl Film {
     /// Part of the picture that this is.
     pub fn region(&self) -> Region {
         self.region
+    }
+
+    /// The colours of its pixels in linear light, row by row; black where nothing is finished.
+    pub fn pixels(&self) -> &[Rgb] {
+        &self.pixels
+    }
+
+    /// Which of its tiles are finished, row by row.
+    pub fn finished_tiles(&self) -> &[bool] {
+        &self.finished
     }
 
     /// Pixels that are finished; the others are black.
@@ -208,6 +255,37 @@ mod tests {
             }
         }
         assert!(seen.iter().all(|&n| n == 1));
+    }
+
+    #[test]
+    fn parts_that_do_not_fit_make_no_film() {
+        let region = Region { x: 5, y: 7, width: 70, height: 40 };
+        let film = Film::new(region);
+        let parts = || FilmParts {
+            region,
+            pixels: film.pixels().to_vec(),
+            depths: film.depths().to_vec(),
+            finished: film.finished_tiles().to_vec(),
+            rays: film.rays(),
+            bad_samples: film.bad_samples(),
+            first_bad_sample: film.first_bad_sample(),
+        };
+        assert_eq!(region.tile_count(), 6);
+        assert_eq!(Film::from_parts(parts()).as_ref(), Some(&film));
+        let wrong: [fn(&mut FilmParts); 7] = [
+            |parts| parts.region.width = 69,
+            |parts| parts.region.x = u32::MAX,
+            |parts| parts.pixels.truncate(2799),
+            |parts| parts.depths.push(0),
+            |parts| parts.finished.truncate(5),
+            |parts| parts.bad_samples = 1,
+            |parts| parts.first_bad_sample = Some(BadSample { at: DVec2::ZERO }),
+        ];
+        for spoil in wrong {
+            let mut parts = parts();
+            spoil(&mut parts);
+            assert_eq!(Film::from_parts(parts), None);
+        }
     }
 
     #[test]

@@ -8,4 +8,4 @@ pub mod scenes;
 mod targets;
 
 pub use dice::Dice;
-pub use targets::{TARGETS, Target, gltf, image, obj, picture, ply, render, scene, stl, table};
+pub use targets::{TARGETS, Target, checkpoint, gltf, image, obj, picture, ply, render, scene, stl, table};

@@ -2,16 +2,14 @@
 
 use crate::{Dice, scenes};
 use durer::imaging::{DecodeLimits, Image, decode};
-use durer::math::Rgb;
-use durer::{AssetError, Assets, CheckedScene, Limits, RenderOptions};
+use durer::math::{Fingerprint, Rgb};
+use durer::{AssetError, Assets, CheckedScene, Checkpoint, Limits, RenderOptions, encode_checkpoint};
 
 /// A target, as the fuzzer and the tests call it.
 pub type Target = fn(&[u8]);
 
 /// All targets by name, which is that of their file in `fuzz/fuzz_targets` and of their folder in `fuzz/regressions`.
-///
-/// The checkpoint's belongs here as soon as there are checkpoints.
-pub const TARGETS: [(&str, Target); 8] = [
+pub const TARGETS: [(&str, Target); 9] = [
     ("scene", scene),
     ("obj", obj),
     ("ply", ply),
@@ -19,6 +17,7 @@ pub const TARGETS: [(&str, Target); 8] = [
     ("gltf", gltf),
     ("image", image),
     ("table", table),
+    ("checkpoint", checkpoint),
     ("render", render),
 ];
 
@@ -108,6 +107,17 @@ pub fn table(bytes: &[u8]) {
     for objects in ["spheres: {file: F}", "capsules: {file: F}", "spheres: {centers: {file: F}, radius: 1}"] {
         let text = format!("objects: [{}]", objects.replace('F', &format!("numbers.{ending}")));
         load("scene.yaml", text.as_bytes(), file);
+    }
+}
+
+/// A checkpoint; and one with these bytes before a sum that is right, for else nothing but sums would be tried. What is read
+/// is written as it was.
+pub fn checkpoint(bytes: &[u8]) {
+    let _ = Checkpoint::decode(bytes);
+    let mut summed = bytes.to_vec();
+    summed.extend(Fingerprint::of(bytes).0.to_le_bytes());
+    if let Ok(checkpoint) = Checkpoint::decode(&summed) {
+        assert!(encode_checkpoint(&checkpoint.origin, &checkpoint.scene, &checkpoint.film) == summed);
     }
 }
 

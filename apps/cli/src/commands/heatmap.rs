@@ -4,12 +4,12 @@ use crate::exit::{Exit, Failure};
 use crate::interrupt::Interrupt;
 use crate::load::SceneArgs;
 use crate::numbers::{short, thousands};
-use crate::overrides::{Overrides, Size};
+use crate::overrides::Overrides;
 use crate::progress::{Bar, Show};
 use crate::{output, target};
 use clap::{Args, ValueEnum};
 use durer::imaging::{ErrorMap, Image, false_color};
-use durer::{CheckedScene, HeatMap, PictureFile, RenderOptions};
+use durer::{CheckedScene, CompiledScene, PictureFile, RenderOptions};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -18,11 +18,13 @@ Examples:
   durer heatmap room.yaml                                 writes room.heat.png
   durer heatmap city.yaml -o nodes.png --what nodes
   durer heatmap city.yaml --scale 200 --width 1920 --json > city.json
+  durer heatmap room.yaml --what divisions                where anti-aliasing looks closer
 
 One ray of the eye goes through the middle of each pixel; counted are the nodes of trees
 whose boxes it was tested against, and the shapes, triangles and particles that it was
-tested against, until it was known what it meets first. Black is nothing, pale yellow the
-scale or more.";
+tested against, until it was known what it meets first. For `divisions` the picture is
+rendered, and counted is how often each pixel was divided to look closer. Black is
+nothing, pale yellow the scale or more.";
 
 /// Show what it takes to find what the eye sees, as a picture in false colors
 #[derive(Args, Debug)]
@@ -56,7 +58,7 @@ pub(crate) struct Arguments {
     quiet: bool,
 
     #[command(flatten)]
-    size: Size,
+    overrides: Overrides,
 }
 
 /// What is counted.
@@ -68,33 +70,40 @@ enum What {
     Primitives,
     /// The sum of the two
     Both,
+    /// How often anti-aliasing divided each pixel
+    Divisions,
 }
 
 /// Draws the map.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let path = arguments.output_path();
     let format = target::format_of(&path)?;
-    let scene = Overrides::from(arguments.size).apply(arguments.scene.load(arguments.show())?)?;
-    let map = arguments.count(&scene)?;
-    let counts = arguments.what.of(&map);
+    let scene = arguments.overrides.apply(arguments.scene.load(arguments.show())?)?;
+    let (width, height) = (scene.scene().picture.width, scene.scene().picture.height);
+    let Counted { counts, summaries } = arguments.count(&scene)?;
     let scale = arguments.scale.unwrap_or_else(|| almost_all(&counts));
-    PictureFile::create(&path)?.write(&picture(&map, &counts, scale), &target::usual(format))?;
-    let what = [Summary::of("nodes", &map.nodes), Summary::of("primitives", &map.primitives)];
-    let (width, height) = (map.region.width, map.region.height);
+    PictureFile::create(&path)?.write(&picture((width, height), &counts, scale), &target::usual(format))?;
     if arguments.json {
-        output::print_json(&json!({
-            "output": path.to_string_lossy(), "width": width, "height": height, "scale": scale,
-            "nodes": what[0].json(), "primitives": what[1].json(),
-        }))?;
+        let mut facts = json!({ "output": path.to_string_lossy(), "width": width, "height": height, "scale": scale });
+        for summary in &summaries {
+            facts[summary.what] = summary.json();
+        }
+        output::print_json(&facts)?;
     } else if !arguments.quiet {
-        let [nodes, primitives] = what.map(|summary| summary.text());
-        let path = path.display();
+        let told: Vec<String> = summaries.iter().map(Summary::text).collect();
+        let (path, told) = (path.display(), told.join("; "));
         output::note(&format!(
-            "{path}: {width} × {height} pixels; {nodes}; {primitives}; the scale ends at {}",
+            "{path}: {width} × {height} pixels; {told}; the scale ends at {}",
             thousands(scale.into())
         ));
     }
     Ok(Exit::Fine)
+}
+
+/// What was counted in each pixel, and what there is to say of it.
+struct Counted {
+    counts: Vec<u32>,
+    summaries: Vec<Summary>,
 }
 
 impl Arguments {
@@ -102,15 +111,15 @@ impl Arguments {
         self.output.clone().unwrap_or_else(|| PathBuf::from(self.scene.name()).with_extension("heat.png"))
     }
 
-    fn count(&self, scene: &CheckedScene) -> Result<HeatMap, Failure> {
+    fn count(&self, scene: &CheckedScene) -> Result<Counted, Failure> {
         let interrupt = Interrupt::after(self.scene.time_limit());
         durer::with_threads(self.threads.map(usize::from), || {
             let compiled = self.scene.compile(scene, self.show())?;
-            let bar = Bar::new(interrupt.stop_flag(), self.show());
-            let map = durer::heatmap(&compiled, &RenderOptions::default(), &bar);
+            let bar = Bar::new(interrupt.stop_flag(), 0, self.show());
+            let counted = self.what.count(&compiled, &bar)?;
             bar.finish();
             interrupt.stopped()?;
-            Ok(map?)
+            Ok(counted)
         })?
     }
 
@@ -120,12 +129,24 @@ impl Arguments {
 }
 
 impl What {
-    fn of(self, map: &HeatMap) -> Vec<u32> {
-        match self {
-            What::Nodes => map.nodes.clone(),
-            What::Primitives => map.primitives.clone(),
-            What::Both => map.nodes.iter().zip(&map.primitives).map(|(a, b)| a.saturating_add(*b)).collect(),
+    fn count(self, scene: &CompiledScene, bar: &Bar<'_>) -> Result<Counted, Failure> {
+        let options = RenderOptions::default();
+        if self == What::Divisions {
+            let film = durer::render(scene, &options, bar)?;
+            let counts: Vec<u32> = film.depths().iter().map(|&depth| depth.into()).collect();
+            let summaries = vec![Summary::of("divisions", &counts)];
+            return Ok(Counted { counts, summaries });
         }
+        let map = durer::heatmap(scene, &options, bar)?;
+        let summaries = vec![Summary::of("nodes", &map.nodes), Summary::of("primitives", &map.primitives)];
+        let counts = match self {
+            What::Nodes => map.nodes,
+            What::Primitives => map.primitives,
+            What::Both | What::Divisions => {
+                map.nodes.iter().zip(&map.primitives).map(|(a, b)| a.saturating_add(*b)).collect()
+            }
+        };
+        Ok(Counted { counts, summaries })
     }
 }
 
@@ -139,9 +160,8 @@ fn almost_all(counts: &[u32]) -> u32 {
     }
 }
 
-fn picture(map: &HeatMap, counts: &[u32], scale: u32) -> Image {
+fn picture((width, height): (u32, u32), counts: &[u32], scale: u32) -> Image {
     let share = |&count: &u32| (f64::from(count) / f64::from(scale)).min(1.0) as f32;
-    let (width, height) = (map.region.width, map.region.height);
     false_color(&ErrorMap { width, height, values: counts.iter().map(share).collect() })
 }
 

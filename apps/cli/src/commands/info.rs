@@ -11,7 +11,7 @@ use crate::progress::Show;
 use clap::Args;
 use durer::imaging::{FileFormat, Transfer};
 use durer::math::DVec3;
-use durer::scene::{Antialias, LightKind, Object, ObjectKind, Picture};
+use durer::scene::{Antialias, LightKind, Object, ObjectKind, Picture, PixelFilter};
 use durer::{Bounds, CompiledScene, GeometryMemory, Scene};
 use serde_json::{Value, json};
 
@@ -181,6 +181,7 @@ impl<'s> Facts<'s> {
             "picture": { "width": width, "height": height, "transfer": transfer_word(transfer) },
             "max_depth": self.scene.render.max_depth,
             "antialias": antialias_text(self.scene.render.antialias),
+            "filter": filter_text(self.scene.render.filter),
             "shapes": self.objects.shapes.json(),
             "meshes": { "total": self.objects.meshes, "triangles": self.memory.triangles },
             "particles": self.objects.particles.json(),
@@ -280,6 +281,17 @@ pub(crate) fn antialias_text(antialias: Antialias) -> String {
         Antialias::Adaptive { threshold, max_depth } => with_two("adaptive", threshold, max_depth),
         Antialias::Pov1 { threshold, depth } => with_two("pov1", threshold, depth),
         Antialias::Pov2 { threshold, depth } => with_two("pov2", threshold, depth),
+    }
+}
+
+/// As `--filter` takes it, to the last digit.
+pub(crate) fn filter_text(filter: PixelFilter) -> String {
+    match filter {
+        PixelFilter::Box => "box".to_owned(),
+        PixelFilter::Tent { radius } => format!("tent:{radius}"),
+        PixelFilter::Gaussian { radius, sigma } => format!("gaussian:{radius},{sigma}"),
+        PixelFilter::Mitchell { radius } => format!("mitchell:{radius}"),
+        PixelFilter::BlackmanHarris { radius } => format!("blackman_harris:{radius}"),
     }
 }
 

@@ -1,21 +1,22 @@
 //! `durer render`: from a scene file to a picture file.
 
+mod job;
+mod manner;
 mod report;
+mod saver;
+mod saving;
 
 use crate::exit::{Exit, Failure};
-use crate::interrupt::Interrupt;
 use crate::load::SceneArgs;
 use crate::overrides::Overrides;
-use crate::progress::{Bar, Show};
-use crate::provenance;
-use crate::target::{self, FileOptions};
-use clap::{Args, ValueEnum};
-use durer::imaging::EncodeOptions;
-use durer::math::Fingerprint;
-use durer::{CheckedScene, Film, PictureFile, Region, RenderError, RenderOptions, SimdLevel};
-use report::{Report, Seconds};
-use std::path::PathBuf;
-use std::time::Instant;
+use crate::target::FileOptions;
+use clap::Args;
+use durer::{Origin, Region, SimdLevel};
+use saving::Saving;
+use std::path::{Path, PathBuf};
+
+pub(crate) use job::Job;
+pub(crate) use manner::Manner;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -29,7 +30,9 @@ Examples:
 The format follows the extension: png, jpg, exr, hdr or pfm. The picture is the same
 whatever the number of threads. Ctrl-C stops after the tiles being worked on and saves
 what is finished beside the picture, as room.partial.png for room.png, which stays as it
-was; the second Ctrl-C quits at once.";
+was; the second Ctrl-C quits at once. A render that takes over a minute keeps what is
+finished in a checkpoint, room.png.durer-checkpoint; after a crash or Ctrl-C,
+`durer resume room.png.durer-checkpoint` goes on, to the same picture.";
 
 /// Render a scene to a picture file
 #[derive(Args, Debug)]
@@ -46,22 +49,16 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
     crop: Option<Region>,
 
-    /// Number of threads [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
-    threads: Option<u16>,
+    #[command(flatten)]
+    manner: Manner,
 
     /// Instruction set for building and searching, such as sse2, avx2 or neon; it changes no pixel [default: the best
     /// that the machine has]
     #[arg(long, value_name = "LEVEL", value_parser = simd)]
     simd: Option<SimdLevel>,
 
-    /// Print statistics to standard output, in place of the line at the end
-    #[arg(long, value_name = "FORMAT")]
-    stats: Option<StatsFormat>,
-
-    /// Show neither progress nor the line at the end, only warnings and errors
-    #[arg(short, long)]
-    quiet: bool,
+    #[command(flatten)]
+    saving: Saving,
 
     #[command(flatten)]
     overrides: Overrides,
@@ -70,63 +67,16 @@ pub(crate) struct Arguments {
     file: FileOptions,
 }
 
-/// How statistics are printed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum StatsFormat {
-    /// As a JSON object
-    Json,
-}
-
 /// Renders the scene.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
-    let interrupt = Interrupt::after(arguments.scene.time_limit());
-    let path = arguments.output_path();
-    let format = target::format_of(&path)?;
-    let mut options = arguments.file.encode_options(format)?;
-    let (loaded, load) = timed(|| arguments.load());
-    let (scene, fingerprint) = loaded?;
-    options.metadata = provenance::of_render(fingerprint, scene.scene(), arguments.crop);
-    options.transfer = scene.scene().picture.transfer;
-    arguments.check_crop(&scene)?;
-    arguments.scene.admit(&scene)?;
-    interrupt.watch();
-    let file = PictureFile::create(&path)?;
-    interrupt.removes(file.temporary());
-    let (film, build, render) = arguments.trace(&scene, &interrupt)?;
-    let report = Report::new(arguments.scene.path.clone(), path, format, &film);
-    let seconds = Seconds { load, build, render, write: 0.0 };
-    finish(arguments, film, file, &options, report.with_seconds(seconds).stopped_by(interrupt.reason()))
+    Job { arguments, manner: &arguments.manner, origin: origin() }.run(None)
 }
 
-/// Writes what there is, and says so.
-fn finish(
-    arguments: &Arguments,
-    film: Film,
-    file: PictureFile,
-    options: &EncodeOptions,
-    mut report: Report,
-) -> Result<Exit, Failure> {
-    if film.finished_pixels() == 0 {
-        report.tell_nothing();
-        return Err(Failure::Told(Exit::Interrupted));
-    }
-    let file = match report.is_complete() {
-        true => file,
-        false => file.with_name(&report.name_of_part()),
-    };
-    let (bytes, write) = timed(|| file.write(&film.develop(), options));
-    report.written(bytes?, write);
-    report.tell_bad_samples();
-    match arguments.stats {
-        Some(StatsFormat::Json) => report.print_json()?,
-        None if !arguments.quiet => report.tell(),
-        None => {}
-    }
-    if report.is_complete() {
-        return Ok(Exit::Fine);
-    }
-    report.tell_interrupted();
-    Err(Failure::Told(Exit::Interrupted))
+/// How this program was called, for its checkpoints: the words behind the subcommand.
+fn origin() -> Option<Origin> {
+    let words = std::env::args_os().skip(2).map(|word| word.into_string().ok()).collect::<Option<_>>()?;
+    let folder = std::env::current_dir().ok()?.into_os_string().into_string().ok()?;
+    Some(Origin { folder, words })
 }
 
 impl Arguments {
@@ -137,52 +87,15 @@ impl Arguments {
         }
     }
 
-    /// The scene with the settings of the command line, and the fingerprint of what was loaded.
-    fn load(&self) -> Result<(CheckedScene, Fingerprint), Failure> {
-        let (scene, sources) = self.scene.load_with_sources(self.show())?;
-        let fingerprint = durer::scene_fingerprint(scene.scene(), &sources);
-        Ok((self.overrides.apply(scene)?, fingerprint))
-    }
-
-    /// Finds out whether the part lies within the picture, before there is any file.
-    fn check_crop(&self, scene: &CheckedScene) -> Result<(), Failure> {
-        let picture = scene.scene().picture;
-        match self.crop {
-            Some(region) if !within(region, picture.width, picture.height) => {
-                Err(RenderError::RegionOutside { region, picture: (picture.width, picture.height) }.into())
-            }
-            Some(_) | None => Ok(()),
+    /// Makes it a render in another folder, whose checkpoints go where they have been so far.
+    pub(crate) fn resumed_in(&mut self, folder: &Path, checkpoint: &Path) {
+        if std::env::current_dir().is_ok_and(|here| here != folder) {
+            self.output = Some(folder.join(self.output_path()));
+            self.scene.move_to(folder);
         }
+        self.saving.no_checkpoint = false;
+        self.saving.checkpoint = Some(checkpoint.to_owned());
     }
-
-    /// The film, and the seconds for building and for tracing.
-    fn trace(&self, scene: &CheckedScene, interrupt: &Interrupt) -> Result<(Film, f64, f64), Failure> {
-        durer::with_threads(self.threads.map(usize::from), || {
-            let (compiled, build) = timed(|| self.scene.compile_for(scene, self.simd.unwrap_or_default(), self.show()));
-            let compiled = compiled?;
-            let bar = Bar::new(interrupt.stop_flag(), self.show());
-            let options = RenderOptions { threads: None, region: self.crop };
-            let (film, render) = timed(|| durer::render(&compiled, &options, &bar));
-            bar.finish();
-            Ok((film?, build, render))
-        })?
-    }
-
-    fn show(&self) -> Show {
-        Show::unless(self.quiet)
-    }
-}
-
-/// The value of `work`, and the seconds that it took.
-fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
-    let start = Instant::now();
-    let value = work();
-    (value, start.elapsed().as_secs_f64())
-}
-
-fn within(region: Region, width: u32, height: u32) -> bool {
-    let ends = |start: u32, length: u32| u64::from(start) + u64::from(length);
-    ends(region.x, region.width) <= u64::from(width) && ends(region.y, region.height) <= u64::from(height)
 }
 
 fn simd(name: &str) -> Result<SimdLevel, String> {

@@ -1,5 +1,6 @@
 //! The program, run as a program: what it writes, what it says, and how it ends.
 
+mod checkpoint;
 mod compare;
 mod explain;
 mod heatmap;

@@ -18,6 +18,8 @@ pub(super) struct Report {
     region: Region,
     finished: u64,
     rays: RayCounts,
+    /// Rays of an earlier run that this one goes on with.
+    rays_before: u64,
     bad_samples: u64,
     first_bad_sample: Option<BadSample>,
     bytes: usize,
@@ -45,6 +47,7 @@ impl Report {
             region: film.region(),
             finished: film.finished_pixels(),
             rays: film.rays(),
+            rays_before: 0,
             bad_samples: film.bad_samples(),
             first_bad_sample: film.first_bad_sample(),
             bytes: 0,
@@ -61,6 +64,11 @@ impl Report {
     /// With the time that the steps took.
     pub(super) fn with_seconds(self, seconds: Seconds) -> Report {
         Report { seconds, ..self }
+    }
+
+    /// Goes on with a run that traced so many rays.
+    pub(super) fn after(self, rays_before: u64) -> Report {
+        Report { rays_before, ..self }
     }
 
     /// What the picture is called if it is not complete: `room.partial.png` in place of `room.png`.
@@ -92,12 +100,13 @@ impl Report {
         self.finished == self.pixels()
     }
 
-    fn pixels(&self) -> u64 {
+    pub(super) fn pixels(&self) -> u64 {
         u64::from(self.region.width) * u64::from(self.region.height)
     }
 
     fn mrays_per_second(&self) -> f64 {
-        if self.seconds.render > 0.0 { self.rays.total() as f64 / self.seconds.render / 1e6 } else { 0.0 }
+        let rays = self.rays.total().saturating_sub(self.rays_before);
+        if self.seconds.render > 0.0 { rays as f64 / self.seconds.render / 1e6 } else { 0.0 }
     }
 
     /// The line at the end.
@@ -110,16 +119,22 @@ impl Report {
             count => format!(" ({} more cut off as too deep)", thousands(count)),
         };
         output::note(&format!(
-            "{}: {width} × {height} pixels, {}; {} eye, {} reflected, {} transmitted, {} shadow rays{cut_off}, {:.2} Mrays/s; \
+            "{}: {width} × {height} pixels, {}; {} eye ({} a pixel), {} reflected, {} transmitted, {} shadow rays{cut_off}, {:.2} Mrays/s; \
              load {load:.3} s, build {build:.3} s, render {render:.3} s",
             self.written_path().display(),
             bytes(self.bytes as u64),
             thousands(eye),
+            short((self.eye_rays_per_pixel() * 100.0).round() / 100.0),
             thousands(reflected),
             thousands(transmitted),
             thousands(shadow),
             self.mrays_per_second(),
         ));
+    }
+
+    /// Of the pixels that are finished.
+    fn eye_rays_per_pixel(&self) -> f64 {
+        self.rays.eye as f64 / (self.finished.max(1)) as f64
     }
 
     /// Says which samples had no colour.
@@ -175,6 +190,7 @@ impl Report {
                 "eye": eye, "reflected": reflected, "transmitted": transmitted, "shadow": shadow,
                 "total": self.rays.total(), "cut_off": cut_off,
             },
+            "eye_rays_per_pixel": self.eye_rays_per_pixel(),
             "mrays_per_second": self.mrays_per_second(),
             "seconds": { "load": load, "build": build, "render": render, "write": write },
             "bad_samples": self.bad_samples,

@@ -1,0 +1,282 @@
+//! One render, from the scene to the picture: a new one, or one that goes on with a checkpoint.
+
+use super::manner::StatsFormat;
+use super::report::{Report, Seconds};
+use super::saver::{Saver, When};
+use super::{Arguments, Manner};
+use crate::exit::{Exit, Failure};
+use crate::interrupt::Interrupt;
+use crate::numbers::short;
+use crate::progress::{Bar, Phase, Reached, Show};
+use crate::{output, provenance, target};
+use durer::imaging::{EncodeOptions, Image};
+use durer::{
+    CheckedScene, Checkpoint, Film, Origin, PictureFile, Progress, Region, RenderError, RenderOptions, SceneHash,
+    Sources, read_checkpoint, temporary_beside,
+};
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// What is to be done.
+pub(crate) struct Job<'a> {
+    /// What was asked for when the render was begun.
+    pub(crate) arguments: &'a Arguments,
+    /// How it is carried out now.
+    pub(crate) manner: &'a Manner,
+    /// What the checkpoints are to say of how it was begun; `None` if that cannot be said in UTF-8.
+    pub(crate) origin: Option<Origin>,
+}
+
+/// What there is besides the film when all rays are traced.
+struct Outcome<'a> {
+    file: PictureFile,
+    options: EncodeOptions,
+    saver: Option<&'a Saver<'a>>,
+    show: Show,
+}
+
+impl Job<'_> {
+    /// Renders, from the beginning or from a checkpoint on.
+    pub(crate) fn run(&self, resumed: Option<Checkpoint>) -> Result<Exit, Failure> {
+        let (arguments, show) = (self.arguments, self.manner.show());
+        let interrupt = Interrupt::after(arguments.scene.time_limit());
+        let path = arguments.output_path();
+        let format = target::format_of(&path)?;
+        let mut options = arguments.file.encode_options(format)?;
+        let (loaded, load) = timed(|| arguments.scene.load_with_sources(show));
+        let (scene, sources) = loaded?;
+        let fingerprint = durer::scene_fingerprint(scene.scene(), &sources);
+        let scene = arguments.overrides.apply(scene)?;
+        options.metadata = provenance::of_render(fingerprint, scene.scene(), arguments.crop);
+        options.transfer = scene.scene().picture.transfer;
+        let region = self.region(&scene)?;
+        arguments.scene.admit(&scene)?;
+        let saver = self.saver(&scene, &sources)?;
+        let is_new = resumed.is_none();
+        let film = match (resumed, &saver) {
+            (Some(checkpoint), Some(saver)) => Some(fitting(checkpoint, saver, region)?),
+            (None, Some(saver)) => self.look_for_checkpoint(saver, region).map(|()| None)?,
+            (_, None) => None,
+        };
+        interrupt.watch();
+        let mut file = PictureFile::create(&path)?;
+        interrupt.removes(file.temporary());
+        file.reserve(options.most_bytes(region.width, region.height))?;
+        if let Some(saver) = &saver {
+            interrupt.removes(&temporary_beside(saver.path()));
+            if is_new && saving_from_the_start(arguments) {
+                // Only a try: what it takes is free again at once.
+                PictureFile::create(saver.path())?.reserve(14 * region.pixels())?;
+            }
+        }
+        let rays_before = film.as_ref().map_or(0, |film| film.rays().total());
+        let (film, build, render) = self.trace(&scene, (film, region), &interrupt, saver.as_ref(), show)?;
+        let report = Report::new(arguments.scene.path.clone(), path, format, &film).after(rays_before);
+        let report = report.with_seconds(Seconds { load, build, render, write: 0.0 }).stopped_by(interrupt.reason());
+        self.finish(&film, Outcome { file, options, saver: saver.as_ref(), show }, report)
+    }
+
+    /// The part that is rendered, if it lies within the picture.
+    fn region(&self, scene: &CheckedScene) -> Result<Region, Failure> {
+        let (width, height) = (scene.scene().picture.width, scene.scene().picture.height);
+        let ends = |start: u32, length: u32| u64::from(start) + u64::from(length);
+        match self.arguments.crop {
+            None => Ok(Region { x: 0, y: 0, width, height }),
+            Some(r) if ends(r.x, r.width) <= u64::from(width) && ends(r.y, r.height) <= u64::from(height) => Ok(r),
+            Some(region) => Err(RenderError::RegionOutside { region, picture: (width, height) }.into()),
+        }
+    }
+
+    /// Who writes checkpoints. `None` if there can be none.
+    fn saver<'s>(&self, scene: &'s CheckedScene, sources: &'s Sources) -> Result<Option<Saver<'s>>, Failure> {
+        let saving = &self.arguments.saving;
+        match (&self.origin, &saving.checkpoint) {
+            (Some(origin), _) => {
+                let path = saving.path(&self.arguments.output_path());
+                Ok(Some(Saver::new(path, origin.clone(), (scene, sources), saving.times())))
+            }
+            (None, Some(_)) => Err(Failure::usage("--checkpoint: checkpoints need names of files that are UTF-8")),
+            (None, None) => Ok(None),
+        }
+    }
+
+    /// Looks at what lies where the checkpoint of a new render is to be.
+    fn look_for_checkpoint(&self, saver: &Saver<'_>, region: Region) -> Result<(), Failure> {
+        let path = saver.path();
+        let (when, _) = self.arguments.saving.times();
+        if when == When::Never || !path.exists() {
+            return Ok(());
+        }
+        match read_checkpoint(path) {
+            Ok(old) if old.film.region() == region && old.scene == *saver.hash() => {
+                saver.found(&old.film);
+                if !self.manner.quiet {
+                    let share = 100.0 * old.film.finished_pixels() as f64 / region.pixels() as f64;
+                    let (path, share) = (path.display(), short(share.floor()));
+                    output::note(&format!(
+                        "note: {path} has {share} % of this picture; this begins anew, `durer resume {path}` goes on"
+                    ));
+                }
+                Ok(())
+            }
+            // What somebody else keeps under a name that was given is not written over.
+            Err(error) if when == When::Always => {
+                Err(Failure::file(format!("{} is not written over: {error}", path.display())))
+            }
+            Ok(_) | Err(_) => Ok(()),
+        }
+    }
+
+    /// The film, and the seconds for building and for tracing.
+    fn trace(
+        &self,
+        scene: &CheckedScene,
+        (film, region): (Option<Film>, Region),
+        interrupt: &Interrupt,
+        saver: Option<&Saver<'_>>,
+        show: Show,
+    ) -> Result<(Film, f64, f64), Failure> {
+        durer::with_threads(self.manner.threads.map(usize::from), || {
+            let simd = self.arguments.simd.unwrap_or_default();
+            let (compiled, build) = timed(|| self.arguments.scene.compile_for(scene, simd, show));
+            let compiled = compiled?;
+            let already = film.as_ref().map_or(0, Film::finished_pixels);
+            let watch = Watch { bar: Bar::new(interrupt.stop_flag(), already, show), saver };
+            let options = RenderOptions { threads: None, region: Some(region) };
+            let (film, render) = timed(|| match film {
+                Some(film) => durer::render_on(&compiled, film, &options, &watch),
+                None => durer::render(&compiled, &options, &watch),
+            });
+            watch.bar.finish();
+            if let Some(saver) = saver {
+                saver.settle();
+            }
+            Ok((film?, build, render))
+        })?
+    }
+
+    /// Writes what there is, and says so.
+    fn finish(&self, film: &Film, outcome: Outcome<'_>, mut report: Report) -> Result<Exit, Failure> {
+        let Outcome { file, options, saver, show } = outcome;
+        let reached = |remaining| Some(Reached { finished: film.finished_pixels(), total: report.pixels(), remaining });
+        let (complete, interrupted) = (reached(Some(0.0)), reached(None));
+        if film.finished_pixels() == 0 {
+            show.tell("interrupted", interrupted);
+            report.tell_nothing();
+            return Err(Failure::Told(Exit::Interrupted));
+        }
+        let file = match report.is_complete() {
+            true => file,
+            false => file.with_name(&report.name_of_part()),
+        };
+        let Region { width, height, .. } = film.region();
+        let image = Image { width, height, pixels: film.pixels().to_vec() };
+        let (bytes, write) = timed(|| {
+            let _phase = Phase::begin("writing", &self.arguments.output_path().to_string_lossy(), show);
+            file.write(&image, &options)
+        });
+        let kept = match (saver, bytes.is_ok() && report.is_complete()) {
+            (Some(saver), false) => self.keep(saver, film, bytes.is_err()),
+            (_, true) | (None, false) => None,
+        };
+        let bytes = bytes.map_err(|error| match &kept {
+            Some(path) => Failure::file(format!("{error}\n       {}", how_to_go_on(path))),
+            None => Failure::from(error),
+        })?;
+        report.written(bytes, write);
+        report.tell_bad_samples();
+        match self.manner.stats {
+            Some(StatsFormat::Json) => report.print_json()?,
+            None if !self.manner.quiet => report.tell(),
+            None => {}
+        }
+        if report.is_complete() {
+            if let Some(saver) = saver {
+                saver.remove();
+            }
+            show.tell("done", complete);
+            return Ok(Exit::Fine);
+        }
+        show.tell("interrupted", interrupted);
+        if let Some(path) = kept {
+            output::note(&how_to_go_on(&path));
+        }
+        report.tell_interrupted();
+        Err(Failure::Told(Exit::Interrupted))
+    }
+
+    /// Writes a last checkpoint, if this render has any or cannot keep its film in another way; gives its path.
+    fn keep(&self, saver: &Saver<'_>, film: &Film, picture_failed: bool) -> Option<PathBuf> {
+        let never = self.arguments.saving.times().0 == When::Never;
+        if never || !(saver.is_active() || picture_failed) {
+            return None;
+        }
+        match saver.save(film) {
+            Ok(()) => Some(saver.path().to_owned()),
+            Err(error) => {
+                output::warning(&format!("cannot write the checkpoint {}: {error}", saver.path().display()));
+                // An older one may be there still, with less on it.
+                read_checkpoint(saver.path()).is_ok().then(|| saver.path().to_owned())
+            }
+        }
+    }
+}
+
+/// Shows progress, and has checkpoints written.
+struct Watch<'a> {
+    bar: Bar<'a>,
+    saver: Option<&'a Saver<'a>>,
+}
+
+impl Progress for Watch<'_> {
+    fn finished(&self, pixels: u64, of: u64) {
+        self.bar.finished(pixels, of);
+    }
+
+    fn advanced(&self, film: &Film) {
+        if let Some(saver) = self.saver {
+            let (elapsed, remaining) = self.bar.times(film.region().pixels());
+            saver.advanced(film, remaining.map(|remaining| elapsed + remaining));
+        }
+    }
+
+    fn stop(&self) -> bool {
+        self.bar.stop()
+    }
+}
+
+/// The film of a checkpoint, if it is one of this scene.
+fn fitting(checkpoint: Checkpoint, saver: &Saver<'_>, region: Region) -> Result<Film, Failure> {
+    let path = saver.path().display();
+    let changed = differences(&checkpoint.scene, saver.hash());
+    if !changed.is_empty() {
+        let message = format!("cannot go on with {path}: since it was made, {changed} changed");
+        return Err(Failure::Message(Exit::Scene, message));
+    }
+    if checkpoint.film.region() != region {
+        return Err(Failure::file(format!("cannot go on with {path}: it is not of the part that it says")));
+    }
+    saver.found(&checkpoint.film);
+    Ok(checkpoint.film)
+}
+
+fn saving_from_the_start(arguments: &Arguments) -> bool {
+    arguments.saving.times().0 == When::Always
+}
+
+fn differences(before: &SceneHash, now: &SceneHash) -> String {
+    let names = before.differences(now);
+    let names = names.iter().map(|name| if name.is_empty() { "the scene".to_owned() } else { format!("`{name}`") });
+    names.collect::<Vec<_>>().join(", ")
+}
+
+fn how_to_go_on(path: &std::path::Path) -> String {
+    format!("what is finished is kept; go on with: durer resume {}", path.display())
+}
+
+/// The value of `work`, and the seconds that it took.
+fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let value = work();
+    (value, start.elapsed().as_secs_f64())
+}

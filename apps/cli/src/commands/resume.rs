@@ -1,0 +1,43 @@
+//! `durer resume`: goes on with a render that was cut short.
+
+use super::render::{Job, Manner};
+use crate::args::{Cli, Command};
+use crate::exit::{Exit, Failure};
+use clap::{Args, Parser};
+use durer::read_checkpoint;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  durer resume room.png.durer-checkpoint
+  durer resume night.checkpoint --threads 2 --progress json
+
+The checkpoint knows the scene, its settings and the picture file; the picture is, byte
+for byte, that of a render that was never cut short. If the scene or one of its files has
+changed since, that is an error. The checkpoint is removed when the picture is written.";
+
+/// Go on with a render from its checkpoint
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// The checkpoint
+    #[arg(value_name = "FILE")]
+    checkpoint: PathBuf,
+
+    #[command(flatten)]
+    manner: Manner,
+}
+
+/// Goes on.
+pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    let path = &arguments.checkpoint;
+    let cannot = |why: String| Failure::file(format!("cannot go on with {}: {why}", path.display()));
+    let checkpoint = read_checkpoint(path).map_err(|error| cannot(error.to_string()))?;
+    let origin = checkpoint.origin.clone();
+    let words = ["durer", "render"].into_iter().chain(origin.words.iter().map(String::as_str));
+    let Ok(Cli { command: Command::Render(mut render) }) = Cli::try_parse_from(words) else {
+        return Err(cannot("it does not say how it was begun".to_owned()));
+    };
+    render.resumed_in(Path::new(&origin.folder), path);
+    Job { arguments: &render, manner: &arguments.manner, origin: Some(origin) }.run(Some(checkpoint))
+}

@@ -1,0 +1,89 @@
+//! Checkpoints: a film that is not finished, in a file, with all that it takes to go on with it.
+//!
+//! Their bytes are described in `docs/checkpoint.md`.
+
+mod format;
+
+use crate::SceneHash;
+use durer_render::Film;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+pub use format::encode_checkpoint;
+
+/// A film that is not finished, and where it came from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checkpoint {
+    /// How it was begun.
+    pub origin: Origin,
+    /// The scene that it is a picture of.
+    pub scene: SceneHash,
+    /// What is finished.
+    pub film: Film,
+}
+
+/// How a render was begun, in the words of the program that began it. The library keeps them and reads nothing into them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Origin {
+    /// The folder that paths in the words are relative to.
+    pub folder: String,
+    /// What was asked for.
+    pub words: Vec<String>,
+}
+
+/// Why there is no going on with a checkpoint.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum CheckpointError {
+    /// It is a file of another kind.
+    AnotherKind,
+    /// Its format is of this version, which we do not know.
+    OtherFormat(u32),
+    /// It was made by this other version of durer, whose pixels may differ.
+    OtherVersion(String),
+    /// Its bytes are not those that were written, or some are missing.
+    Damaged,
+    /// The system refused.
+    Io(io::Error),
+}
+
+/// The most bytes of a file: more than the largest picture takes.
+const MOST_BYTES: u64 = 8 << 30;
+
+/// Reads a checkpoint.
+///
+/// # Errors
+///
+/// It cannot be read, or is none that this version of durer can go on with.
+pub fn read_checkpoint(path: &Path) -> Result<Checkpoint, CheckpointError> {
+    let metadata = std::fs::metadata(path).map_err(CheckpointError::Io)?;
+    if !metadata.is_file() {
+        return Err(CheckpointError::AnotherKind);
+    }
+    let mut bytes = Vec::new();
+    File::open(path).and_then(|file| file.take(MOST_BYTES).read_to_end(&mut bytes)).map_err(CheckpointError::Io)?;
+    Checkpoint::decode(&bytes)
+}
+
+impl std::fmt::Display for CheckpointError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let ours = env!("CARGO_PKG_VERSION");
+        match self {
+            CheckpointError::AnotherKind => write!(f, "this is no checkpoint of durer"),
+            CheckpointError::OtherFormat(version) => {
+                write!(f, "its format has the version {version}; durer {ours} knows none but {}", format::VERSION)
+            }
+            CheckpointError::OtherVersion(theirs) => {
+                write!(f, "it was made by durer {theirs}; this is durer {ours}, whose pixels may differ")
+            }
+            CheckpointError::Damaged => write!(f, "it is damaged: its bytes are not those that were written"),
+            CheckpointError::Io(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for CheckpointError {}
+
+#[cfg(test)]
+mod tests;

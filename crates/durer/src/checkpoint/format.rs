@@ -1,0 +1,166 @@
+//! The bytes of a checkpoint.
+
+use super::{Checkpoint, CheckpointError, Origin};
+use crate::SceneHash;
+use durer_math::{DVec2, Rgb};
+use durer_render::{BadSample, Film, FilmParts, RayCounts, Region};
+use twox_hash::XxHash3_128;
+
+/// How files begin. The last three bytes are changed by programs that take the file for a text.
+const MAGIC: &[u8; 8] = b"durer\x1a\r\n";
+
+/// Of the format.
+pub(super) const VERSION: u32 = 1;
+
+/// Bytes of a hash.
+const HASH: usize = 16;
+
+const MADE_BY: &str = env!("CARGO_PKG_VERSION");
+
+/// The bytes of a checkpoint.
+pub fn encode_checkpoint(origin: &Origin, scene: &SceneHash, film: &Film) -> Vec<u8> {
+    let mut out = Vec::with_capacity(13 * film.pixels().len() + film.finished_tiles().len() + 4096);
+    out.extend_from_slice(MAGIC);
+    out.extend_from_slice(&VERSION.to_le_bytes());
+    text(&mut out, MADE_BY);
+    text(&mut out, &origin.folder);
+    out.extend_from_slice(&(origin.words.len() as u32).to_le_bytes());
+    origin.words.iter().for_each(|word| text(&mut out, word));
+    out.extend_from_slice(&(scene.parts.len() as u32).to_le_bytes());
+    for (name, hash) in &scene.parts {
+        text(&mut out, name);
+        out.extend_from_slice(&hash.to_le_bytes());
+    }
+    put_film(&mut out, film);
+    let checksum = XxHash3_128::oneshot(&out);
+    out.extend_from_slice(&checksum.to_le_bytes());
+    out
+}
+
+fn text(out: &mut Vec<u8>, text: &str) {
+    out.extend_from_slice(&(text.len() as u32).to_le_bytes());
+    out.extend_from_slice(text.as_bytes());
+}
+
+fn put_film(out: &mut Vec<u8>, film: &Film) {
+    let Region { x, y, width, height } = film.region();
+    let RayCounts { eye, reflected, transmitted, shadow, cut_off } = film.rays();
+    [x, y, width, height].iter().for_each(|number| out.extend_from_slice(&number.to_le_bytes()));
+    for number in [eye, reflected, transmitted, shadow, cut_off, film.bad_samples()] {
+        out.extend_from_slice(&number.to_le_bytes());
+    }
+    let first = film.first_bad_sample();
+    let at = first.map_or(DVec2::ZERO, |BadSample { at }| at);
+    out.push(u8::from(first.is_some()));
+    at.to_array().iter().for_each(|number| out.extend_from_slice(&number.to_le_bytes()));
+    out.extend(film.finished_tiles().iter().map(|&finished| u8::from(finished)));
+    for component in film.pixels().iter().flat_map(|pixel| pixel.to_array()) {
+        out.extend_from_slice(&component.to_le_bytes());
+    }
+    out.extend_from_slice(film.depths());
+}
+
+impl Checkpoint {
+    /// Reads the bytes of a checkpoint, whatever they may be. Takes no more memory than a small multiple of their number.
+    ///
+    /// # Errors
+    ///
+    /// They are not those of a checkpoint that was made by this version of durer.
+    pub fn decode(bytes: &[u8]) -> Result<Checkpoint, CheckpointError> {
+        let rest = bytes.strip_prefix(MAGIC).ok_or(match MAGIC.starts_with(bytes) {
+            true => CheckpointError::Damaged,
+            false => CheckpointError::AnotherKind,
+        })?;
+        let (version, _) = rest.split_first_chunk().ok_or(CheckpointError::Damaged)?;
+        let version = u32::from_le_bytes(*version);
+        if version != VERSION {
+            return Err(CheckpointError::OtherFormat(version));
+        }
+        let (content, checksum) = bytes.split_last_chunk::<HASH>().ok_or(CheckpointError::Damaged)?;
+        if XxHash3_128::oneshot(content).to_le_bytes() != *checksum {
+            return Err(CheckpointError::Damaged);
+        }
+        let mut input = Input(content.get(MAGIC.len() + 4..).ok_or(CheckpointError::Damaged)?);
+        let made_by = input.text().ok_or(CheckpointError::Damaged)?;
+        if made_by != MADE_BY {
+            return Err(CheckpointError::OtherVersion(made_by));
+        }
+        let checkpoint = input.checkpoint().ok_or(CheckpointError::Damaged)?;
+        if input.0.is_empty() { Ok(checkpoint) } else { Err(CheckpointError::Damaged) }
+    }
+}
+
+/// What is still to be read. Each method gives `None` if it is not there.
+struct Input<'a>(&'a [u8]);
+
+impl<'a> Input<'a> {
+    fn array<const N: usize>(&mut self) -> Option<[u8; N]> {
+        let (first, rest) = self.0.split_first_chunk()?;
+        self.0 = rest;
+        Some(*first)
+    }
+
+    fn bytes(&mut self, length: u64) -> Option<&'a [u8]> {
+        let (first, rest) = self.0.split_at_checked(usize::try_from(length).ok()?)?;
+        self.0 = rest;
+        Some(first)
+    }
+
+    fn u32(&mut self) -> Option<u32> {
+        self.array().map(u32::from_le_bytes)
+    }
+
+    fn u64(&mut self) -> Option<u64> {
+        self.array().map(u64::from_le_bytes)
+    }
+
+    fn flag(&mut self) -> Option<bool> {
+        match self.array()? {
+            [0] => Some(false),
+            [1] => Some(true),
+            [_] => None,
+        }
+    }
+
+    fn text(&mut self) -> Option<String> {
+        let length = self.u32()?;
+        std::str::from_utf8(self.bytes(length.into())?).ok().map(str::to_owned)
+    }
+
+    /// A list that begins with its length. It grows as its elements are found to be there.
+    fn list<T>(&mut self, element: impl Fn(&mut Self) -> Option<T>) -> Option<Vec<T>> {
+        let length = self.u32()?;
+        let mut list = Vec::new();
+        for _ in 0..length {
+            list.push(element(self)?);
+        }
+        Some(list)
+    }
+
+    fn checkpoint(&mut self) -> Option<Checkpoint> {
+        let origin = Origin { folder: self.text()?, words: self.list(Input::text)? };
+        let parts = self.list(|input| Some((input.text()?, u128::from_le_bytes(input.array()?))))?;
+        Some(Checkpoint { origin, scene: SceneHash { parts }, film: self.film()? })
+    }
+
+    fn film(&mut self) -> Option<Film> {
+        let region = Region { x: self.u32()?, y: self.u32()?, width: self.u32()?, height: self.u32()? };
+        let [eye, reflected, transmitted] = [self.u64()?, self.u64()?, self.u64()?];
+        let rays = RayCounts { eye, reflected, transmitted, shadow: self.u64()?, cut_off: self.u64()? };
+        let bad_samples = self.u64()?;
+        let is_there = self.flag()?;
+        let at = DVec2::new(f64::from_le_bytes(self.array()?), f64::from_le_bytes(self.array()?));
+        let first_bad_sample = is_there.then_some(BadSample { at });
+        let finished = self.bytes(region.tile_count())?.iter().map(|&byte| byte == 1).collect();
+        let colors = self.bytes(region.pixels().checked_mul(12)?)?;
+        let pixels = colors.chunks_exact(12).map(color).collect();
+        let depths = self.bytes(region.pixels())?.to_vec();
+        Film::from_parts(FilmParts { region, pixels, depths, finished, rays, bad_samples, first_bad_sample })
+    }
+}
+
+/// Of 12 bytes.
+fn color(bytes: &[u8]) -> Rgb {
+    let component = |at: usize| bytes[at..].first_chunk().map_or(0.0, |bytes| f32::from_le_bytes(*bytes));
+    Rgb::new(component(0), component(4), component(8))
+}

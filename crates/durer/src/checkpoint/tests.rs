@@ -1,0 +1,145 @@
+//! What is written is read; what is damaged is refused; and the picture is that of one go.
+
+use super::*;
+use crate::{CompiledScene, Progress, Region, RenderOptions, SceneHash, Sources};
+use durer_formats::{Limits, NoAssets, load_str};
+use durer_scene::CheckedScene;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Stops after so many calls.
+struct After(AtomicUsize);
+
+impl Progress for After {
+    fn advanced(&self, _: &Film) {
+        // Tiles that are being worked on come in still.
+        let _ = self.0.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(1));
+    }
+
+    fn stop(&self) -> bool {
+        self.0.load(Ordering::Relaxed) == 0
+    }
+}
+
+fn hash(scene: &CheckedScene) -> SceneHash {
+    SceneHash::of(scene.scene(), &Sources::default())
+}
+
+fn scene(render: &str) -> CheckedScene {
+    let text = format!(
+        "picture: {{width: 75, height: 100}}\nrender: {{{render}}}\nobjects:\n\
+         - plane: {{material: {{color: {{checker: {{colors: [black, white]}}}}}}}}\n\
+         - sphere: {{center: [0, 1, 0], material: {{color: tomato, reflection: 0.5}}}}\n"
+    );
+    load_str(&text, "test", &NoAssets, &Limits::default()).unwrap().scene
+}
+
+const ONE_THREAD: RenderOptions = RenderOptions { threads: Some(1), region: None };
+
+fn stopped_after(scene: &CompiledScene, region: Option<Region>, calls: usize) -> Film {
+    let options = RenderOptions { region, ..ONE_THREAD };
+    crate::render(scene, &options, &After(AtomicUsize::new(calls))).unwrap()
+}
+
+fn through_bytes(scene: &CheckedScene, film: &Film) -> Film {
+    let origin = Origin { folder: "/somewhere".to_owned(), words: vec!["a.yaml".to_owned(), "ö".to_owned()] };
+    let bytes = encode_checkpoint(&origin, &hash(scene), film);
+    let checkpoint = Checkpoint::decode(&bytes).unwrap();
+    assert_eq!((&checkpoint.origin, &checkpoint.scene, &checkpoint.film), (&origin, &hash(scene), film));
+    checkpoint.film
+}
+
+/// All ways of anti-aliasing, with filters that reach to neighbors, stopped everywhere.
+#[test]
+fn going_on_from_a_file_gives_the_picture_of_one_go() {
+    let ways = [
+        "antialias: none",
+        "antialias: {grid: 2}",
+        "antialias: {recursive: {threshold: 0.1, max_depth: 2}}",
+        "antialias: adaptive",
+        "antialias: {adaptive: {threshold: 0.02, max_depth: 3}}, filter: mitchell",
+        "antialias: pov1",
+        "antialias: pov2, filter: gaussian",
+        "antialias: {grid: 2}, filter: {blackman_harris: {radius: 3}}",
+    ];
+    let mut cut_short = 0;
+    for way in ways {
+        let scene = scene(way);
+        let compiled = crate::compile(&scene);
+        let region = Some(Region { x: 3, y: 1, width: 70, height: 99 });
+        let whole = crate::render(&compiled, &RenderOptions { region, ..ONE_THREAD }, &()).unwrap();
+        let bits =
+            |film: &Film| film.pixels().iter().map(|pixel| pixel.to_array().map(f32::to_bits)).collect::<Vec<_>>();
+        for calls in [0, 1, 2, 3, 5, 11] {
+            let part = stopped_after(&compiled, region, calls);
+            cut_short += usize::from(!part.is_complete());
+            let resumed = crate::render_on(&compiled, through_bytes(&scene, &part), &ONE_THREAD, &()).unwrap();
+            assert!(resumed.is_complete());
+            assert_eq!((bits(&resumed), resumed.depths()), (bits(&whole), whole.depths()), "{way}, {calls}");
+        }
+    }
+    assert!(cut_short > ways.len() * 3, "{cut_short}");
+}
+
+#[test]
+fn every_flipped_bit_and_every_cut_is_found() {
+    let scene = scene("antialias: none");
+    let film = stopped_after(&crate::compile(&scene), Some(Region { x: 0, y: 0, width: 3, height: 2 }), 1);
+    let origin = Origin { folder: "a".to_owned(), words: vec!["b".to_owned()] };
+    let bytes = encode_checkpoint(&origin, &hash(&scene), &film);
+    assert!(Checkpoint::decode(&bytes).is_ok());
+    for at in 0..bytes.len() {
+        for bit in 0..8 {
+            let mut flipped = bytes.clone();
+            flipped[at] ^= 1 << bit;
+            let error = Checkpoint::decode(&flipped).expect_err("a flipped bit");
+            match at {
+                0..8 => assert!(matches!(error, CheckpointError::AnotherKind), "{at}: {error}"),
+                8..12 => assert!(matches!(error, CheckpointError::OtherFormat(_)), "{at}: {error}"),
+                _ => assert!(matches!(error, CheckpointError::Damaged), "{at}: {error}"),
+            }
+        }
+        assert!(matches!(Checkpoint::decode(&bytes[..at]), Err(CheckpointError::Damaged)), "cut at {at}");
+    }
+    let longer = [&bytes[..], &[0]].concat();
+    assert!(matches!(Checkpoint::decode(&longer), Err(CheckpointError::Damaged)));
+}
+
+/// A right checksum does not make it a checkpoint; and what it promises is not allocated.
+#[test]
+fn wrong_contents_under_a_right_checksum_are_refused() {
+    let scene = scene("antialias: none");
+    let film = stopped_after(&crate::compile(&scene), Some(Region { x: 0, y: 0, width: 3, height: 2 }), 1);
+    let origin = Origin { folder: "folder".to_owned(), words: vec!["word".to_owned()] };
+    let bytes = encode_checkpoint(&origin, &hash(&scene), &film);
+    let sealed = |content: &[u8]| {
+        let checksum = twox_hash::XxHash3_128::oneshot(content);
+        [content, &checksum.to_le_bytes()].concat()
+    };
+    let content = &bytes[..bytes.len() - 16];
+    assert!(Checkpoint::decode(&sealed(content)).is_ok());
+    for at in 12..content.len() {
+        let mut spoilt = content.to_vec();
+        spoilt[at] = 0xff;
+        // Whatever comes of it: no panic, and no more memory than the bytes are worth.
+        let _ = Checkpoint::decode(&sealed(&spoilt));
+        assert!(Checkpoint::decode(&sealed(&content[..at])).is_err(), "cut at {at}");
+    }
+    assert!(Checkpoint::decode(&sealed(&[content, &[0]].concat())).is_err());
+    let mut other = content.to_vec();
+    other[16] ^= 1;
+    assert!(matches!(Checkpoint::decode(&sealed(&other)), Err(CheckpointError::OtherVersion(_))));
+    let at = content.windows(4).position(|four| four == b"word").unwrap() - 8;
+    other = content.to_vec();
+    other[at..at + 4].copy_from_slice(&u32::MAX.to_le_bytes());
+    assert!(matches!(Checkpoint::decode(&sealed(&other)), Err(CheckpointError::Damaged)));
+}
+
+#[test]
+fn files_of_other_kinds_are_named_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a");
+    std::fs::write(&path, "objects: [sphere]\n").unwrap();
+    assert!(matches!(read_checkpoint(&path), Err(CheckpointError::AnotherKind)));
+    assert!(matches!(read_checkpoint(folder.path()), Err(CheckpointError::AnotherKind)));
+    assert!(matches!(read_checkpoint(&folder.path().join("b")), Err(CheckpointError::Io(_))));
+}
