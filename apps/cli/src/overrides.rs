@@ -148,13 +148,6 @@ impl Size {
     }
 }
 
-impl From<Size> for Overrides {
-    /// Nothing but the size.
-    fn from(size: Size) -> Overrides {
-        Overrides { size, ..Overrides::default() }
-    }
-}
-
 /// What scenes take as a width or height.
 fn length() -> RangedI64ValueParser<u32> {
     RangedI64ValueParser::new().range(1..=65_535)
