@@ -2,12 +2,12 @@
 
 use super::table::{Entry, Picture};
 
-const HEAD: &str = "<!-- Made by `cargo xtask gallery` from xtask/src/gallery/table.rs: edit that. -->\n\n# Gallery\n\n\
+const HEAD: &str = "<!-- Made by `cargo xtask gallery` from xtask/src/gallery/table/: edit that. -->\n\n# Gallery\n\n\
     Every picture with the command that made it; run it in the root of the repository.\n";
 
 /// The whole page.
-pub(crate) fn markdown(entries: &[Entry]) -> String {
-    entries.iter().fold(HEAD.to_owned(), |page, entry| page + &section(entry))
+pub(crate) fn markdown<'a>(entries: impl Iterator<Item = &'a Entry>) -> String {
+    entries.fold(HEAD.to_owned(), |page, entry| page + &section(entry))
 }
 
 fn section(entry: &Entry) -> String {
@@ -48,7 +48,7 @@ mod tests {
             text: "On and off.",
             pictures: &[ONE, Picture { name: "b", command: "heatmap", ..ONE }],
         };
-        let page = markdown(&[entry]);
+        let page = markdown([entry].iter());
         assert!(page.contains("| fog | fog |\n| --- | --- |\n| ![fog](a.png) | ![fog](b.png) |"), "{page}");
         assert!(page.contains("durer heatmap scenes/a.yaml -o b.png --width 9\n"), "{page}");
     }
