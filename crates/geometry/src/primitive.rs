@@ -217,13 +217,15 @@ impl Primitive {
         }
     }
 
-    /// Calls `visit` with the thing that this is: with each of particles (some of them more than once), with all of a mesh or
-    /// a solid as one, and with nothing if it is an infinite plane.
-    pub fn each_slender(&self, mut visit: impl FnMut(Slender)) {
+    /// Calls `visit` with the thing that this is and the number 0: with all of a mesh or a solid as one, with nothing if it is
+    /// an infinite plane; with each of particles (some of them more than once) and its own number.
+    pub fn each_slender(&self, mut visit: impl FnMut(Slender, u32)) {
         let (map, origin) = (&self.world_from_shape, self.origin);
         let form = match &self.kind {
             Kind::Plane(_) => return,
-            Kind::Particles(particles) => return particles.each_slender(&mut |one| visit(one.mapped(map, origin))),
+            Kind::Particles(particles) => {
+                return particles.each_slender(&mut |one, number| visit(one.mapped(map, origin), number));
+            }
             Kind::Sphere(_) => Form::Ball,
             Kind::Disc(_) => Form::Disc,
             Kind::Cylinder(_) | Kind::Cone(_) => Form::Rod,
@@ -234,7 +236,7 @@ impl Primitive {
             | Kind::Mesh(_)
             | Kind::Solid(_) => Form::Any,
         };
-        visit(Slender::of_box(&each_kind!(&self.kind, shape => shape.bounds()), form, map, origin));
+        visit(Slender::of_box(&each_kind!(&self.kind, shape => shape.bounds()), form, map, origin), 0);
     }
 
     /// For an infinite plane, its normal (scaled as the map scales it) and a point on it.

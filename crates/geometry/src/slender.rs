@@ -82,7 +82,7 @@ mod tests {
 
     fn slender(primitive: &Primitive) -> Vec<Slender> {
         let mut all = Vec::new();
-        primitive.each_slender(|one| all.push(one));
+        primitive.each_slender(|one, _| all.push(one));
         all
     }
 

@@ -16,8 +16,12 @@ pub(crate) struct Look {
     pub(crate) color: Rgb,
     /// As it looks on a screen, from 0 to 1.
     pub(crate) seen: [f32; 3],
-    /// What is hit first: a number for each thing.
+    /// What is hit first: a number for each thing, of which particles are one each.
     pub(crate) thing: u32,
+    /// ... and one for each smooth piece of it.
+    pub(crate) piece: u32,
+    /// True if nothing behind it can be seen.
+    pub(crate) hides: bool,
     /// How far away it is, infinite for the background.
     pub(crate) depth: f32,
     /// The normal of shading there, 0 for the background.
@@ -66,13 +70,14 @@ impl SceneEye<'_> {
     fn look_at(&self, at: DVec2, known: Known<'_>, account: &mut Account) -> Look {
         let mut watch = Watch { scene: self.scene, rays: &mut account.rays, first: None };
         let color = Whitted.radiance(self.scene, &self.scene.camera.ray(at), known, &mut watch);
-        let First { thing, depth, normal } = watch.first.unwrap_or(First::BACKGROUND);
+        let First { thing, piece, hides, depth, normal } = watch.first.unwrap_or(First::BACKGROUND);
         let is_finite = color.is_finite();
         if !is_finite {
             account.bad_sample(at);
         }
         let color = if is_finite { color } else { Rgb::BLACK };
-        Look { color, seen: seen(color, self.scene.picture.transfer), thing, depth, normal, is_finite }
+        let seen = seen(color, self.scene.picture.transfer);
+        Look { color, seen, thing, piece, hides, depth, normal, is_finite }
     }
 }
 
@@ -85,16 +90,25 @@ fn seen(color: Rgb, transfer: Transfer) -> [f32; 3] {
     color.to_array().map(|c| if c > 0.0 { curve(c.min(1.0)) } else { 0.0 })
 }
 
+/// A number for one of the things that a primitive is. Those of things that lie side by side in a picture differ, which is
+/// all that matters of them.
+pub(crate) fn thing(primitive: u32, number: u32) -> u32 {
+    primitive.wrapping_mul(0x9e37_79b1) ^ number
+}
+
 /// What is hit first.
 #[derive(Clone, Copy)]
 struct First {
     thing: u32,
+    piece: u32,
+    hides: bool,
     depth: f32,
     normal: [f32; 3],
 }
 
 impl First {
-    const BACKGROUND: First = First { thing: u32::MAX, depth: f32::INFINITY, normal: [0.0; 3] };
+    const BACKGROUND: First =
+        First { thing: u32::MAX, piece: u32::MAX, hides: false, depth: f32::INFINITY, normal: [0.0; 3] };
 }
 
 /// Counts rays, and notes the first surface.
@@ -111,10 +125,15 @@ impl Observer for Watch<'_> {
 
     fn surface(&mut self, seen: &SurfaceSeen) {
         if self.first.is_none() {
-            // Numbers of things that lie side by side in the picture differ, which is all that matters of them.
-            let thing = seen.hit.primitive.wrapping_mul(0x9e37_79b1) ^ self.scene.piece_of(&seen.hit);
-            let normal = seen.normal.to_array().map(|c| c as f32);
-            self.first = Some(First { thing, depth: seen.length as f32, normal });
+            let number = self.scene.world.particle_of(&seen.hit).unwrap_or(0);
+            let material = &self.scene.materials[self.scene.material_at(&seen.hit) as usize];
+            self.first = Some(First {
+                thing: thing(seen.hit.primitive, number),
+                piece: thing(seen.hit.primitive, self.scene.piece_of(&seen.hit)),
+                hides: seen.opacity.is_none() && !material.is_clear(),
+                depth: seen.length as f32,
+                normal: seen.normal.to_array().map(|c| c as f32),
+            });
         }
     }
 

@@ -243,11 +243,11 @@ impl Particles {
         each_kind!(&self.blocks, _Kind, blocks => blocks[block].ids[slot])
     }
 
-    /// Calls `visit` with each particle, in the particles' space; with some of them more than once.
-    pub(crate) fn each_slender(&self, visit: &mut dyn FnMut(Slender)) {
+    /// Calls `visit` with each particle, in the particles' space, and its number; with some of them more than once.
+    pub(crate) fn each_slender(&self, visit: &mut dyn FnMut(Slender, u32)) {
         each_kind!(&self.blocks, Kind, blocks => {
             for block in blocks {
-                (0..SLOTS).for_each(|slot| visit(Kind::of(block.numbers(slot)).slender()));
+                (0..SLOTS).for_each(|slot| visit(Kind::of(block.numbers(slot)).slender(), block.ids[slot]));
             }
         });
     }

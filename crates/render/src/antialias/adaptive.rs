@@ -215,8 +215,7 @@ impl<'s> Adaptive<'s> {
 
     /// How often the pixel must be divided where a cell is, so that no small thing is missed.
     fn depth_needed(&self, cell: Cell) -> u8 {
-        let depths = || cell.places().map(|place| self.looks.at(place).depth);
-        self.small.depth_needed(&self.small_of_pixels, cell, depths)
+        self.small.depth_needed(&self.small_of_pixels, cell, || cell.places().map(|place| self.looks.at(place)))
     }
 
     /// Searches the sides of cells that an edge goes through, each side once.

@@ -17,13 +17,13 @@ use std::sync::Mutex;
 /// A gray picture, given by a function of place in pixels; notes where it is looked at.
 struct Painted<F> {
     gray: F,
-    is_deep: bool,
+    has_things: bool,
     looked: Mutex<Vec<(u64, u64)>>,
 }
 
 impl<F: Fn(DVec2) -> f32 + Sync> Painted<F> {
-    fn new(gray: F, is_deep: bool) -> Painted<F> {
-        Painted { gray, is_deep, looked: Mutex::new(Vec::new()) }
+    fn new(gray: F, has_things: bool) -> Painted<F> {
+        Painted { gray, has_things, looked: Mutex::new(Vec::new()) }
     }
 }
 
@@ -36,9 +36,10 @@ impl<F: Fn(DVec2) -> f32 + Sync> Eye for Painted<F> {
             let is_finite = gray.is_finite();
             let gray = if is_finite { gray } else { 0.0 };
             let color = Rgb::gray(gray);
-            // What is white lies before what is black.
-            let (seen, depth) = ([gray; 3], if self.is_deep { 1.0 - 0.5 * gray } else { 1.0 });
-            Look { color, seen, thing: 0, depth, normal: [0.0; 3], is_finite }
+            // What is white is a thing before what is black.
+            let is_thing = self.has_things && gray > 0.5;
+            let (seen, thing, depth) = ([gray; 3], u32::from(!is_thing), if is_thing { 0.5 } else { 1.0 });
+            Look { color, seen, thing, piece: thing, hides: true, depth, normal: [0.0; 3], is_finite }
         }));
     }
 }
@@ -153,9 +154,9 @@ fn fewer_rays_than_others_and_less_error() {
         [("edges", edges), ("star", star), ("discs", discs), ("zone plate", zone_plate)];
     for (name, picture) in pictures {
         let truth = truth(picture);
-        let is_deep = name == "discs";
-        let small = if is_deep { SmallThings::discs(all_discs(), SIZE) } else { SmallThings::default() };
-        let made = Made::by(&Painted::new(picture, is_deep), adaptive(&small), PixelFilter::Box);
+        let has_things = name == "discs";
+        let small = if has_things { SmallThings::discs(all_discs(), SIZE) } else { SmallThings::default() };
+        let made = Made::by(&Painted::new(picture, has_things), adaptive(&small), PixelFilter::Box);
         let (rays, error) = (made.rays_a_pixel(), made.error(&truth));
         let [(seed_rays, seed_error), (pov_rays, pov_error)] = others(picture, &truth);
         assert!(rays <= seed_rays && error <= seed_error / 3.0, "{name}: {rays} {error}, not {seed_rays} {seed_error}");

@@ -27,7 +27,7 @@ impl Explained<'_> {
         let kept = samples.iter().filter(|sample| sample.weight.is_some()).count();
         let thrown = match samples.len() - kept {
             0 => String::new(),
-            thrown => format!(", {thrown} of them thrown away by anti-aliasing"),
+            thrown => format!(", {thrown} of them not counted"),
         };
         page.line(&format!(
             "{}: pixel {},{} of {} × {}, {}{thrown}",
@@ -43,7 +43,7 @@ impl Explained<'_> {
     fn sample(&self, page: &mut Ledger, index: usize, sample: &SampleExplanation) {
         let place = format!("sample {} at ({}, {})", index + 1, short(sample.at.x), short(sample.at.y));
         let Some(weight) = sample.weight else {
-            page.line(&format!("{place}, thrown away; its color was {}", three(sample.color)));
+            page.line(&format!("{place}, not counted; its color was {}", three(sample.color)));
             return;
         };
         page.gap();
@@ -52,7 +52,7 @@ impl Explained<'_> {
         page.rule();
         page.amount(&format!("color of sample {}", index + 1), sample.color);
         if sample.color != sample.ray.sum(Rgb::BLACK) {
-            page.line("(a color that is not finite counts as black)");
+            page.line("(a color that is not finite is left out)");
         }
         if weight != 1.0 {
             page.amount(&format!("  × {}", short(f64::from(weight))), sample.color * weight);

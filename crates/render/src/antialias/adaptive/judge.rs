@@ -45,7 +45,7 @@ pub(super) fn nearer(look: &Look, ends: [&Look; 2]) -> Option<bool> {
 
 /// True if two looks may be of one smooth surface.
 fn same_surface(a: &Look, b: &Look) -> bool {
-    if a.thing != b.thing {
+    if a.piece != b.piece {
         return false;
     }
     let cosine: f32 = a.normal.iter().zip(b.normal).map(|(a, b)| a * b).sum();

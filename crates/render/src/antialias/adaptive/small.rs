@@ -5,6 +5,7 @@ use super::super::lattice::UNIT;
 use super::Cell;
 use crate::camera::Camera;
 use crate::compile::CompiledScene;
+use crate::eye::{Look, thing};
 use crate::film::Region;
 use durer_geometry::Slender;
 use durer_math::DVec2;
@@ -21,8 +22,10 @@ const BUCKET: u32 = 32;
 struct SmallThing {
     ends: [DVec2; 2],
     radius: f64,
-    /// How far away its nearest and its farthest point are.
-    depths: [f32; 2],
+    /// Its number, as [`Look::thing`] has it.
+    number: u32,
+    /// How far away its nearest point is.
+    near: f32,
     /// How often pixels must be divided so that samples cannot all miss it.
     level: u8,
 }
@@ -48,8 +51,11 @@ impl SmallThings {
     pub(crate) fn of(scene: &CompiledScene) -> SmallThings {
         let (width, height) = scene.picture_size();
         let mut things = Vec::new();
-        for primitive in scene.world.primitives() {
-            primitive.each_slender(|slender| things.extend(SmallThing::seen(&slender, &scene.camera, (width, height))));
+        for (primitive, index) in scene.world.primitives().iter().zip(0..) {
+            primitive.each_slender(|slender, number| {
+                let seen = SmallThing::seen(&slender, &scene.camera, (width, height));
+                things.extend(seen.map(|seen| SmallThing { number: thing(index, number), ..seen }));
+            });
         }
         SmallThings::sorted(things, height)
     }
@@ -66,10 +72,10 @@ impl SmallThings {
         SmallThings { things, buckets }
     }
 
-    /// Discs in front of all else: their middles and radii, in pixels.
+    /// Discs in front of all else, all with the number 0: their middles and radii, in pixels.
     #[cfg(test)]
     pub(crate) fn discs(discs: impl IntoIterator<Item = (DVec2, f64)>, height: u32) -> SmallThings {
-        let things = discs.into_iter().filter_map(|(at, radius)| SmallThing::new([at; 2], radius, radius, [0.4, 0.6]));
+        let things = discs.into_iter().filter_map(|(at, radius)| SmallThing::new([at; 2], radius, radius, 0.4));
         SmallThings::sorted(things.collect(), height)
     }
 
@@ -100,18 +106,22 @@ impl SmallThings {
     }
 
     /// How often the pixel must be divided where a cell is: until no small thing in it can be missed. One that is seen there
-    /// is not missed, and one that is hidden behind all that is seen there, either. `depths` are those of what is seen.
-    pub(super) fn depth_needed(&self, of_pixels: &OfPixels, cell: Cell, depths: impl FnOnce() -> [f32; 5]) -> u8 {
+    /// is not missed, and one that is hidden behind all that is seen there, either.
+    pub(super) fn depth_needed<'a>(
+        &self,
+        of_pixels: &OfPixels,
+        cell: Cell,
+        looks: impl FnOnce() -> [&'a Look; 5],
+    ) -> u8 {
         let things = of_pixels.at(cell);
         if things.is_empty() {
             return 0;
         }
-        let depths = depths();
+        let looks = looks();
         let missed = |thing: &&SmallThing| {
-            let [near, far] = thing.depths;
-            let is_hidden = depths.iter().all(|&depth| depth <= near);
-            let is_seen = depths.iter().any(|depth| (near..=far).contains(depth));
-            thing.level > cell.level && !is_hidden && !is_seen && thing.touches(cell)
+            let is_hidden = || looks.iter().all(|look| look.hides && look.depth <= thing.near);
+            let is_seen = || looks.iter().any(|look| look.thing == thing.number);
+            thing.level > cell.level && thing.touches(cell) && !is_seen() && !is_hidden()
         };
         things
             .iter()
@@ -145,21 +155,20 @@ impl SmallThing {
         let core = slender.core * a.scale.min(b.scale);
         let (min, max) = (a.at.min(b.at) - radius, a.at.max(b.at) + radius);
         let is_in_picture = max.x >= 0.0 && max.y >= 0.0 && min.x <= f64::from(width) && min.y <= f64::from(height);
-        // A little more, for the rounding.
-        let reach = slender.radius * 1.001;
-        let depths = [a.distance.min(b.distance) - reach, a.distance.max(b.distance) + reach].map(|depth| depth as f32);
-        if is_in_picture { SmallThing::new([a.at, b.at], radius, core, depths) } else { None }
+        // A little less, for the rounding.
+        let near = (a.distance.min(b.distance) - slender.radius * 1.001) as f32;
+        if is_in_picture { SmallThing::new([a.at, b.at], radius, core, near) } else { None }
     }
 
     /// `None` if it is so large that samples meet it.
-    fn new(ends: [DVec2; 2], radius: f64, core: f64, depths: [f32; 2]) -> Option<SmallThing> {
+    fn new(ends: [DVec2; 2], radius: f64, core: f64, near: f32) -> Option<SmallThing> {
         // Between corners and middles of pixels there is room for a circle of half a pixel. What is wide is met where it
         // is widest, though its outline may have thin parts.
         if radius > 1.0 || core >= 0.5 {
             return None;
         }
         let level = (0..MOST_LEVEL).find(|&level| 0.95 * core * f64::from(1_u32 << level) >= 0.5).unwrap_or(MOST_LEVEL);
-        Some(SmallThing { ends, radius, depths, level })
+        Some(SmallThing { ends, radius, number: 0, near, level })
     }
 
     /// The first and the last row of pixels that it may touch.
@@ -233,7 +242,7 @@ mod tests {
             [at(40.0, 7.5), at(2.0, 7.5)],
             [at(9.5, 41.0), at(9.0, -3.0)],
         ];
-        let things = || ends.iter().filter_map(|&ends| SmallThing::new(ends, 0.3, 0.3, [1.0, 2.0]));
+        let things = || ends.iter().filter_map(|&ends| SmallThing::new(ends, 0.3, 0.3, 1.0));
         let touched = |region: Region| -> Vec<(usize, u32, u32)> {
             let mut all = Vec::new();
             for (index, thing) in things().enumerate() {
