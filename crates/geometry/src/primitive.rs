@@ -217,26 +217,52 @@ impl Primitive {
         }
     }
 
-    /// Calls `visit` with the thing that this is and the number 0: with all of a mesh or a solid as one, with nothing if it is
-    /// an infinite plane; with each of particles (some of them more than once) and its own number.
-    pub fn each_slender(&self, mut visit: impl FnMut(Slender, u32)) {
+    /// Calls `visit` with the things that this consists of: with each of particles (some of them more than once) and its
+    /// number; and, with the number 0, with each triangle of a mesh, each shape of a solid, pieces of a ring, and with other
+    /// shapes as a whole; with nothing if it is an infinite plane.
+    pub fn each_slender(&self, visit: &mut dyn FnMut(Slender, u32)) {
         let (map, origin) = (&self.world_from_shape, self.origin);
+        let mut place = |one: Slender, number: u32| visit(one.mapped(map, origin), number);
         let form = match &self.kind {
             Kind::Plane(_) => return,
-            Kind::Particles(particles) => {
-                return particles.each_slender(&mut |one, number| visit(one.mapped(map, origin), number));
+            Kind::Particles(particles) => return particles.each_slender(&mut place),
+            Kind::Mesh(mesh) => {
+                let part = |corners| Slender { is_part: true, ..Slender::of_triangle(corners) };
+                return mesh.each_triangle(|corners| place(part(corners), 0));
+            }
+            Kind::Solid(solid) => {
+                return solid.shapes().for_each(|shape| shape.each_slender(&mut |one, _| place(one, 0)));
+            }
+            Kind::Torus(torus) => return Slender::each_of_ring(1.0, torus.tube_radius, &mut |one| place(one, 0)),
+            Kind::Triangle(triangle) => return place(Slender::of_triangle(triangle.vertices), 0),
+            Kind::Disc(Disc { inner_radius }) if *inner_radius > 0.0 => {
+                let (middle, half_width) = (0.5 * (1.0 + inner_radius), 0.5 * (1.0 - inner_radius));
+                return Slender::each_of_ring(middle, half_width, &mut |one| place(one, 0));
             }
             Kind::Sphere(_) => Form::Ball,
             Kind::Disc(_) => Form::Disc,
             Kind::Cylinder(_) | Kind::Cone(_) => Form::Rod,
-            Kind::Cuboid(_)
-            | Kind::Rectangle(_)
-            | Kind::Triangle(_)
-            | Kind::Torus(_)
-            | Kind::Mesh(_)
-            | Kind::Solid(_) => Form::Any,
+            Kind::Cuboid(_) | Kind::Rectangle(_) => Form::Any,
         };
         visit(Slender::of_box(&each_kind!(&self.kind, shape => shape.bounds()), form, map, origin), 0);
+    }
+
+    /// About how many things [`Primitive::each_slender`] tells of, at most.
+    pub fn thing_count(&self) -> usize {
+        match &self.kind {
+            Kind::Plane(_) => 0,
+            Kind::Particles(particles) => particles.count(),
+            Kind::Mesh(mesh) => mesh.triangle_count(),
+            Kind::Solid(solid) => solid.shapes().map(Primitive::thing_count).sum(),
+            Kind::Sphere(_)
+            | Kind::Cuboid(_)
+            | Kind::Cylinder(_)
+            | Kind::Cone(_)
+            | Kind::Disc(_)
+            | Kind::Rectangle(_)
+            | Kind::Triangle(_)
+            | Kind::Torus(_) => 1,
+        }
     }
 
     /// For an infinite plane, its normal (scaled as the map scales it) and a point on it.

@@ -1,6 +1,7 @@
 //! Where small and thin things are, without a ray: what the samples of a picture may all miss.
 
 use crate::Bounds;
+use durer_math::functions::{cos, sin};
 use durer_math::{DMat3, DVec3};
 
 /// A thing, as a line with a radius.
@@ -13,6 +14,8 @@ pub struct Slender {
     /// About the middle of the line the thing covers this much to both sides, from wherever it is seen. For shapes of which
     /// only a box is known this is a guess.
     pub core: f64,
+    /// True if it is one of many that make up a surface.
+    pub is_part: bool,
 }
 
 /// How a shape fills its box.
@@ -36,17 +39,49 @@ impl Slender {
         axes.sort_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
         let ([thin, thick, _], long) = (axes.map(DVec3::length), axes[2]);
         let ends = |long: DVec3| [center - long, center + long];
-        match form {
-            Form::Ball => Slender { ends: ends(long - long.normalize_or_zero() * thick), radius: thick, core: thin },
+        let round = ends(long - long.normalize_or_zero() * thick);
+        let box_radius = (thin * thin + thick * thick).sqrt();
+        let (ends, radius, core) = match form {
+            Form::Ball => (round, thick, thin),
             // Seen neither edge-on nor from the front.
-            Form::Disc => {
-                Slender { ends: ends(long - long.normalize_or_zero() * thick), radius: thick, core: 0.75 * thick }
-            }
-            Form::Rod => Slender { ends: ends(long), radius: thick, core: thin },
-            Form::Any => {
-                let radius = (thin * thin + thick * thick).sqrt();
-                Slender { ends: ends(long), radius, core: radius * 0.5 }
-            }
+            Form::Disc => (round, thick, 0.75 * thick),
+            Form::Rod => (ends(long), thick, thin),
+            Form::Any => (ends(long), box_radius, box_radius * 0.5),
+        };
+        Slender { ends, radius, core, is_part: false }
+    }
+
+    /// A triangle, along its longest edge.
+    pub(crate) fn of_triangle([a, b, c]: [DVec3; 3]) -> Slender {
+        let turned = [[a, b, c], [b, c, a], [c, a, b]];
+        let longer = |one: [DVec3; 3], other: [DVec3; 3]| match (one[1] - one[0]).length_squared()
+            < (other[1] - other[0]).length_squared()
+        {
+            true => other,
+            false => one,
+        };
+        let [from, to, tip] = longer(longer(turned[0], turned[1]), turned[2]);
+        let along = (to - from).normalize_or_zero();
+        // From the edge to the tip, at a right angle.
+        let height = (tip - from) - along * (tip - from).dot(along);
+        let radius = height.length() * 0.5;
+        Slender { ends: [from + height * 0.5, to + height * 0.5], radius, core: radius * 0.5, is_part: false }
+    }
+
+    /// Calls `visit` with pieces of a ring about the y axis, of a radius and with a half-width.
+    pub(crate) fn each_of_ring(radius: f64, half_width: f64, visit: &mut dyn FnMut(Slender)) {
+        const PIECES: u32 = 48;
+        let angle = |piece: u32| std::f64::consts::TAU * f64::from(piece) / f64::from(PIECES);
+        let at = |piece: u32| DVec3::new(cos(angle(piece)), 0.0, sin(angle(piece))) * radius;
+        // Between its ends a piece bends away from the line so far.
+        let bend = radius * (1.0 - cos(angle(1) * 0.5));
+        for piece in 0..PIECES {
+            visit(Slender {
+                ends: [at(piece), at(piece + 1)],
+                radius: half_width + bend,
+                core: half_width,
+                is_part: false,
+            });
         }
     }
 
@@ -54,7 +89,7 @@ impl Slender {
     pub(crate) fn mapped(self, map: &DMat3, origin: DVec3) -> Slender {
         let [least, greatest] = stretches(map);
         let ends = self.ends.map(|end| origin + *map * end);
-        Slender { ends, radius: self.radius * greatest, core: self.core * least }
+        Slender { ends, radius: self.radius * greatest, core: self.core * least, ..self }
     }
 }
 
@@ -77,12 +112,12 @@ mod tests {
     use super::*;
     use crate::shapes::particles::Particles;
     use crate::{BuildFor, Primitive};
-    use durer_math::DAffine3;
+    use durer_math::{DAffine3, DVec2};
     use std::sync::Arc;
 
     fn slender(primitive: &Primitive) -> Vec<Slender> {
         let mut all = Vec::new();
-        primitive.each_slender(|one, _| all.push(one));
+        primitive.each_slender(&mut |one, _| all.push(one));
         all
     }
 
@@ -90,7 +125,7 @@ mod tests {
     fn a_ball_is_a_point_with_its_radius() {
         let map = DAffine3::from_translation(DVec3::X) * DAffine3::from_scale(DVec3::splat(3.0));
         let [ball] = slender(&Primitive::sphere(DVec3::Y, 2.0, &map))[..] else { panic!("one thing") };
-        assert_eq!(ball, Slender { ends: [DVec3::new(1.0, 3.0, 0.0); 2], radius: 6.0, core: 6.0 });
+        assert_eq!(ball, Slender { ends: [DVec3::new(1.0, 3.0, 0.0); 2], radius: 6.0, core: 6.0, is_part: false });
     }
 
     #[test]
@@ -115,6 +150,41 @@ mod tests {
         assert_eq!(all.iter().map(|one| one.ends[0].x).collect::<Vec<_>>(), [0.0, 1.0, 2.0]);
         assert!(all.iter().all(|one| one.radius == 2.0 && one.core == 0.5));
         assert!(slender(&Primitive::plane(DVec3::ZERO, DVec3::Y, &DAffine3::IDENTITY)).is_empty());
+    }
+
+    /// Whatever its corners' order, all of a triangle is within the radius of the line, and the line is no longer than it.
+    #[test]
+    fn a_triangle_lies_along_its_longest_edge() {
+        let [a, b, c] = [DVec3::new(1.0, 0.0, 0.0), DVec3::new(11.0, 0.0, 0.0), DVec3::new(4.0, 0.0, 0.5)];
+        for vertices in [[a, b, c], [b, c, a], [c, b, a]] {
+            let [one] = slender(&Primitive::triangle(vertices, [DVec2::ZERO; 3], &DAffine3::IDENTITY))[..] else {
+                panic!("one thing")
+            };
+            assert!(
+                (one.radius - 0.25).abs() < 1e-12 && (one.ends[1] - one.ends[0]).length() - 10.0 < 1e-12,
+                "{one:?}"
+            );
+            for vertex in vertices {
+                let along = (one.ends[1] - one.ends[0]).normalize();
+                let t = (vertex - one.ends[0]).dot(along).clamp(0.0, 10.0);
+                assert!((one.ends[0] + along * t - vertex).length() < 0.25 + 1e-12, "{one:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_ring_is_within_its_pieces() {
+        let ring = slender(&Primitive::torus(DVec3::X, DVec3::Z, [3.0, 0.01], &DAffine3::IDENTITY));
+        for step in 0..1000 {
+            let angle = f64::from(step) * 0.01;
+            let point = DVec3::new(1.0 + 3.0 * cos(angle), 3.0 * sin(angle), 0.0);
+            let distance = |one: &Slender| {
+                let along = one.ends[1] - one.ends[0];
+                let t = ((point - one.ends[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+                (one.ends[0] + along * t - point).length() - (one.radius - 0.01)
+            };
+            assert!(ring.iter().any(|one| distance(one) < 1e-9), "{point}");
+        }
     }
 
     #[test]

@@ -65,31 +65,35 @@ impl Camera {
         Bounds::of_points([corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, -1.0), corner(1.0, 1.0)])
     }
 
-    /// Where the ends of a line are seen: of the part of it that lies before the eye, if there is one.
-    pub(crate) fn project_line(&self, [a, b]: [DVec3; 2]) -> Option<[Projected; 2]> {
-        if self.parallel {
-            return Some([self.project(a, 1.0), self.project(b, 1.0)]);
-        }
-        let [depth_a, depth_b] = [a, b].map(|point| (point - self.position).dot(self.forward));
-        // Near to the eye things are large, and a line has no end.
-        let nearest = 1e-3 * depth_a.max(depth_b);
-        if nearest <= 0.0 {
-            return None;
-        }
-        let cut = |point: DVec3, depth: f64, other: DVec3, other_depth: f64| match depth < nearest {
-            true => (point + (other - point) * ((nearest - depth) / (other_depth - depth)), nearest),
-            false => (point, depth),
+    /// Where the ends of a line are seen: of the part of it that lies before the eye, in pieces along which things become no
+    /// more than twice as large.
+    pub(crate) fn project_pieces(&self, [a, b]: [DVec3; 2]) -> impl Iterator<Item = [Projected; 2]> {
+        let depth = |point: DVec3| if self.parallel { 1.0 } else { (point - self.position).dot(self.forward) };
+        let (near, far) = if depth(a) <= depth(b) { (a, b) } else { (b, a) };
+        let (from, to) = (depth(near), depth(far));
+        // Nearer to the eye than this, things are large.
+        let nearest = from.max(1e-3 * to);
+        let at = move |depth: f64| match to > from {
+            true => (far + (near - far) * ((to - depth) / (to - from)), depth),
+            false => (far, to),
         };
-        let ends = [cut(a, depth_a, b, depth_b), cut(b, depth_b, a, depth_a)];
-        Some(ends.map(|(point, depth)| self.project(point, depth)))
+        let mut end = (to > 0.0).then_some(to);
+        std::iter::from_fn(move || {
+            let this = end?;
+            let next = (this * 0.5).max(nearest);
+            end = (next > nearest).then_some(next);
+            // All of a line across the view is one piece.
+            let ends = if to > from { [at(this), at(next)] } else { [(far, to), (near, from)] };
+            Some(ends.map(|(point, depth)| self.project(point, depth)))
+        })
     }
 
     fn project(&self, point: DVec3, depth: f64) -> Projected {
         let from_eye = point - self.position;
         let along = |axis: DVec3| from_eye.dot(axis) / (axis.length_squared() * depth);
         let at = DVec2::new(along(self.right) + 1.0, 1.0 - along(self.up)) / self.scale;
-        let distance = if self.parallel { from_eye.dot(self.forward) } else { from_eye.length() };
-        Projected { at, scale: 1.0 / (self.up.length() * depth * self.scale.y), distance }
+        let scale = 1.0 / (self.up.length() * depth * self.scale.y);
+        Projected { at, scale, depth: from_eye.dot(self.forward) }
     }
 
     /// The ray through a point of the picture, in pixels from its upper left corner.
@@ -112,8 +116,8 @@ pub(crate) struct Projected {
     pub(crate) at: DVec2,
     /// How many pixels long something of length 1 is there, across the view.
     pub(crate) scale: f64,
-    /// How far away it is, along the ray.
-    pub(crate) distance: f64,
+    /// How far away it is, along the view.
+    pub(crate) depth: f64,
 }
 
 /// A view from the front, a little from the right and from above, that shows all of `bounds` and little else.
@@ -191,18 +195,24 @@ mod tests {
             for (x, y, t) in [(150.0, 100.0, 3.0), (0.0, 0.0, 1.0), (299.5, 17.25, 8.0)] {
                 let at = DVec2::new(x, y);
                 let ray = camera.ray(at);
-                let [seen, beside] = camera
-                    .project_line([ray.at(t), ray.at(t) + camera.up.normalize() * 1e-3])
-                    .expect("it is before the eye");
-                assert!((seen.at - at).length() < 1e-9 && (seen.distance - t).abs() < 1e-9, "{seen:?}");
+                let near = [ray.at(t), ray.at(t) + camera.up.normalize() * 1e-3];
+                let mut ends = camera.project_pieces(near).next().expect("it is before the eye");
+                ends.sort_by(|a, b| (a.at - at).length().total_cmp(&(b.at - at).length()));
+                let [seen, beside] = ends;
+                assert!((seen.at - at).length() < 1e-9, "{seen:?}");
+                assert!((seen.depth - t * ray.direction.dot(camera.forward)).abs() < 1e-9, "{seen:?}");
                 assert!(((beside.at - at).length() - seen.scale * 1e-3).abs() < 1e-9, "{seen:?}");
             }
         }
         let camera = Camera::compile(Some(&perspective), Bounds::EMPTY, 300, 200);
         let behind = |t: f64| camera.position - camera.forward * t;
-        assert!(camera.project_line([behind(1.0), behind(2.0)]).is_none());
-        let [before, cut] = camera.project_line([behind(-2.0), behind(2.0)]).expect("half of it");
-        assert!((before.distance - 2.0).abs() < 1e-12 && cut.distance > 0.0 && cut.distance < 0.01);
+        assert!(camera.project_pieces([behind(1.0), behind(2.0)]).next().is_none());
+        let side = camera.right.normalize();
+        let line = [behind(-8.0) + side, behind(2.0) - side];
+        let pieces: Vec<[Projected; 2]> = camera.project_pieces(line).collect();
+        assert!(pieces.windows(2).all(|two| (two[0][1].at - two[1][0].at).length() < 1e-9), "one joins the other");
+        assert!(pieces.iter().all(|[far, near]| near.scale <= 2.0001 * far.scale && near.depth > 0.0));
+        assert!((pieces[0][0].depth - 8.0).abs() < 1e-9 && pieces[pieces.len() - 1][1].depth < 0.01);
     }
 
     #[test]

@@ -22,7 +22,8 @@ pub struct PixelExplanation {
     pub y: u32,
     /// The pixel's colour, exactly as rendered.
     pub color: Rgb,
-    /// All samples, in the order they were taken.
+    /// The samples, in the order in which they are added up: those of other pixels, too, if the filter reaches them. Rays that
+    /// only decided where an edge is are not among them.
     pub samples: Vec<SampleExplanation>,
 }
 
@@ -31,7 +32,8 @@ pub struct PixelExplanation {
 pub struct SampleExplanation {
     /// Where it is, in pixels from the picture's upper left corner.
     pub at: DVec2,
-    /// Its weight in the pixel; `None` if it does not count there: anti-aliasing threw it away, or it is not finite.
+    /// Its weight in the pixel; `None` if it does not count there: anti-aliasing threw it away, it is not
+    /// finite, or it lies beyond the filter.
     pub weight: Option<f32>,
     /// The sum of all contributions, in the order of the tree: a ray's own, then those of its children.
     pub color: Rgb,
@@ -188,7 +190,7 @@ impl WithAntialias for Samples<'_> {
         let Samples { scene, x, y } = self;
         let pixel = Region { x, y, width: 1, height: 1 };
         let mut reconstruction = Reconstruction::new(rows, filter, pixel, scene.picture_size());
-        reconstruction.sample(&SceneEye { scene }, pixel, &mut Account::default(), &|| false);
+        reconstruction.sample(&SceneEye::new(scene), pixel, &mut Account::default(), &|| false);
         let mut splats = Vec::new();
         reconstruction.splats(x, y, &mut splats);
         splats

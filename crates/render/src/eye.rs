@@ -29,6 +29,20 @@ pub(crate) struct Look {
     pub(crate) is_finite: bool,
 }
 
+impl Look {
+    /// What is seen where nothing is looked at.
+    const NOTHING: Look = Look {
+        color: Rgb::BLACK,
+        seen: [0.0; 3],
+        thing: u32::MAX,
+        piece: u32::MAX,
+        hides: false,
+        depth: f32::INFINITY,
+        normal: [0.0; 3],
+        is_finite: true,
+    };
+}
+
 /// Looks at points of a picture.
 pub(crate) trait Eye: Sync {
     /// Adds what is seen through each of these points, in pixels.
@@ -45,10 +59,23 @@ pub(crate) trait Eye: Sync {
 /// Looks at a scene, with the integrator.
 pub(crate) struct SceneEye<'s> {
     pub(crate) scene: &'s CompiledScene,
+    /// Once it says so nothing is traced any more: what is seen then is black, and whoever asked has to throw it away.
+    pub(crate) stop: &'s (dyn Fn() -> bool + Sync),
+}
+
+impl<'s> SceneEye<'s> {
+    /// One that never stops.
+    pub(crate) fn new(scene: &'s CompiledScene) -> SceneEye<'s> {
+        SceneEye { scene, stop: &|| false }
+    }
 }
 
 impl Eye for SceneEye<'_> {
     fn looks(&self, points: &[DVec2], looks: &mut Vec<Look>, account: &mut Account) {
+        if (self.stop)() {
+            looks.extend(points.iter().map(|_| Look::NOTHING));
+            return;
+        }
         if let Some(vantage) = &self.scene.eye_vantage {
             looks.extend(points.iter().map(|&at| self.look_at(at, Known::Vantage(vantage), account)));
             return;

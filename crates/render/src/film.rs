@@ -29,6 +29,8 @@ pub struct Film {
     depths: Vec<u8>,
     /// Which tiles are finished, row by row.
     finished: Vec<bool>,
+    /// How many pixels they have.
+    finished_pixels: u64,
     account: Account,
 }
 
@@ -75,6 +77,15 @@ pub(crate) struct Tile {
     pub(crate) account: Account,
 }
 
+impl Tile {
+    /// One without pixels as yet.
+    pub(crate) fn new(region: Region) -> Tile {
+        let length = region.pixels() as usize;
+        let (pixels, depths) = (Vec::with_capacity(length), Vec::with_capacity(length));
+        Tile { region, pixels, depths, account: Account::default() }
+    }
+}
+
 impl Region {
     /// The number of its pixels.
     pub fn pixels(&self) -> u64 {
@@ -117,7 +128,7 @@ impl Region {
 impl Account {
     pub(crate) fn add(&mut self, other: &Account) {
         self.rays.add(&other.rays);
-        self.bad_samples += other.bad_samples;
+        self.bad_samples = self.bad_samples.saturating_add(other.bad_samples);
         let first = [self.first_bad_sample, other.first_bad_sample].into_iter().flatten();
         self.first_bad_sample = first.min_by(|a, b| (a.at.y, a.at.x).partial_cmp(&(b.at.y, b.at.x)).unwrap_or(Equal));
     }
@@ -139,6 +150,7 @@ impl Film {
             pixels: vec![Rgb::BLACK; length],
             depths: vec![0; length],
             finished: vec![false; region.tiles().count()],
+            finished_pixels: 0,
             account: Account::default(),
         }
     }
@@ -153,24 +165,29 @@ impl Film {
             && finished.len() as u64 == region.tile_count();
         let account_adds_up = (bad_samples > 0) == first_bad_sample.is_some();
         let account = Account { rays, bad_samples, first_bad_sample };
-        (lies_somewhere && all_there && account_adds_up).then_some(Film { region, pixels, depths, finished, account })
+        if !(lies_somewhere && all_there && account_adds_up) {
+            return None;
+        }
+        let tiles = region.tiles().zip(&finished).filter(|(_, finished)| **finished);
+        let finished_pixels = tiles.map(|(tile, _)| tile.pixels()).sum();
+        Some(Film { region, pixels, depths, finished, finished_pixels, account })
     }
 
     /// Puts a finished rectangle on the film, which begins at the corner of a tile and ends at the edges of tiles.
     pub(crate) fn put(&mut self, tile: &Tile) {
-        let Region { x, y, width, height } = tile.region;
+        let Region { x, y, width, .. } = tile.region;
         let rows = tile.pixels.chunks(width as usize).zip(tile.depths.chunks(width as usize));
         for (row, (colors, depths)) in (y - self.region.y..).zip(rows) {
             let start = row as usize * self.region.width as usize + (x - self.region.x) as usize;
             self.pixels[start..start + width as usize].copy_from_slice(colors);
             self.depths[start..start + width as usize].copy_from_slice(depths);
         }
-        let (column, row) = ((x - self.region.x) / TILE, (y - self.region.y) / TILE);
         let across = self.region.width.div_ceil(TILE);
-        for row in row..row + height.div_ceil(TILE) {
-            for column in column..column + width.div_ceil(TILE) {
-                self.finished[(row * across + column) as usize] = true;
-            }
+        for part in tile.region.tiles() {
+            let (column, row) = ((part.x - self.region.x) / TILE, (part.y - self.region.y) / TILE);
+            let finished = &mut self.finished[(row * across + column) as usize];
+            self.finished_pixels += if *finished { 0 } else { part.pixels() };
+            *finished = true;
         }
         self.account.add(&tile.account);
     }
@@ -204,8 +221,7 @@ impl Film {
 
     /// Pixels that are finished; the others are black.
     pub fn finished_pixels(&self) -> u64 {
-        let tiles = self.region.tiles().zip(&self.finished);
-        tiles.filter(|(_, finished)| **finished).map(|(tile, _)| tile.pixels()).sum()
+        self.finished_pixels
     }
 
     /// True if every pixel is finished.

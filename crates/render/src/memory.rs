@@ -1,13 +1,24 @@
 //! How much memory a picture will take, told before any of it is taken.
 
+use crate::antialias::adaptive::small::{MOST_THINGS, SMALL_THING};
 use crate::compile::PlacedObject;
+use crate::film::TILE;
 use durer_geometry::Primitive;
-use durer_scene::{Data, Instances, MeshData, Object, ObjectKind, ParticleKind, Particles, Scene, Sizes};
+use durer_scene::{
+    Antialias, Data, Instances, MeshData, Object, ObjectKind, ParticleKind, Particles, PixelFilter, RenderSettings,
+    Scene, Sizes,
+};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Of a pixel: its color on the film, what is known of it while it is rendered, and the bytes of the file.
 const PIXEL: u64 = 80;
+/// Of a sample that pixels share: what is seen there, by its place, and its share in the pixel.
+const SHARED_SAMPLE: u64 = 160;
+/// Of a sample that is kept for a filter, twice.
+const KEPT_SAMPLE: u64 = 96;
+/// Rows are sampled together as long as that takes no more than this, if every pixel takes all samples that it may.
+const SAMPLED_TOGETHER: u64 = 512 << 20;
 /// Of something placed: itself, its box and its place in the tree, and both once more while the tree is built.
 const PLACED: u64 = (size_of::<Primitive>() + 2 * size_of::<PlacedObject>()) as u64 + 384;
 /// Of a triangle beside its mesh: its part of a block and of the tree, and its box while the tree is built.
@@ -25,10 +36,53 @@ pub fn memory_needed(scene: &Scene) -> u64 {
         primitives.placed.saturating_add(primitives.operands).saturating_mul(PLACED),
         primitives.triangles.saturating_mul(TRIANGLE),
         primitives.particles.saturating_mul(PARTICLE),
+        samples_together(&scene.render, scene.picture.width, scene.picture.height),
+        small_things(scene, primitives.total()),
     ];
     let mut lists = Lists::default();
     lists.objects(&scene.objects);
     built.into_iter().chain([images, lists.bytes]).fold(0, u64::saturating_add)
+}
+
+/// How many rows of a picture so wide are sampled together, where pixels share samples: as many as a row of tiles has, or
+/// fewer where that may take much memory. No pixel depends on it.
+pub(crate) fn rows_at_a_time(settings: &RenderSettings, width: u32) -> u32 {
+    let row = u64::from(width).saturating_mul(bytes_of_samples(settings)).max(1);
+    (SAMPLED_TOGETHER / row).clamp(1, TILE.into()) as u32
+}
+
+fn samples_together(settings: &RenderSettings, width: u32, height: u32) -> u64 {
+    let rows = u64::from(rows_at_a_time(settings, width).min(height));
+    rows.saturating_mul(width.into()).saturating_mul(bytes_of_samples(settings))
+}
+
+/// Of a pixel that takes all samples that it may, until it is finished.
+fn bytes_of_samples(settings: &RenderSettings) -> u64 {
+    let kept = |samples: u64| if settings.filter == PixelFilter::Box { 0 } else { samples.saturating_mul(KEPT_SAMPLE) };
+    let four_to_the = |power: u32| 4_u64.saturating_pow(power);
+    match settings.antialias {
+        Antialias::None => kept(1),
+        Antialias::Grid { n } => kept(u64::from(n) * u64::from(n)),
+        Antialias::Recursive { max_depth, .. } => kept(four_to_the(max_depth.saturating_add(1))),
+        Antialias::Adaptive { max_depth, .. } => {
+            let samples = four_to_the(max_depth).saturating_mul(2);
+            kept(samples).saturating_add(samples.saturating_mul(SHARED_SAMPLE))
+        }
+        Antialias::Pov1 { depth, .. } => (1 + u64::from(depth) * u64::from(depth)) * KEPT_SAMPLE * 2,
+        Antialias::Pov2 { depth, .. } => four_to_the(depth).saturating_add(4).saturating_mul(SHARED_SAMPLE),
+    }
+}
+
+/// Of what is known of things that may be small in the picture.
+fn small_things(scene: &Scene, things: u64) -> u64 {
+    match scene.render.antialias {
+        Antialias::Adaptive { .. } => things.min(MOST_THINGS).saturating_mul(SMALL_THING),
+        Antialias::None
+        | Antialias::Grid { .. }
+        | Antialias::Recursive { .. }
+        | Antialias::Pov1 { .. }
+        | Antialias::Pov2 { .. } => 0,
+    }
 }
 
 /// Bytes of lists, those that several objects share once.

@@ -104,16 +104,16 @@ pub struct RayCounts {
 impl RayCounts {
     /// Rays of all kinds that were traced.
     pub fn total(&self) -> u64 {
-        self.eye + self.reflected + self.transmitted + self.shadow
+        [self.reflected, self.transmitted, self.shadow].iter().fold(self.eye, |sum, &rays| sum.saturating_add(rays))
     }
 
     /// Adds other counts to these.
     pub fn add(&mut self, other: &RayCounts) {
-        self.eye += other.eye;
-        self.reflected += other.reflected;
-        self.transmitted += other.transmitted;
-        self.shadow += other.shadow;
-        self.cut_off += other.cut_off;
+        self.eye = self.eye.saturating_add(other.eye);
+        self.reflected = self.reflected.saturating_add(other.reflected);
+        self.transmitted = self.transmitted.saturating_add(other.transmitted);
+        self.shadow = self.shadow.saturating_add(other.shadow);
+        self.cut_off = self.cut_off.saturating_add(other.cut_off);
     }
 }
 

@@ -30,6 +30,11 @@ impl Kernel {
         }
     }
 
+    /// True if a pixel is the mean of its own area.
+    fn is_box(self) -> bool {
+        self.filter == PixelFilter::Box
+    }
+
     /// How many pixels beyond its own it reaches.
     fn reach(self) -> u32 {
         (self.radius() - 0.5).ceil() as u32
@@ -83,7 +88,7 @@ pub(crate) struct Reconstruction<R> {
 /// The samples of a row of pixels.
 struct RowSplats {
     /// Where those of each pixel end.
-    ends: Vec<u32>,
+    ends: Vec<usize>,
     splats: Vec<Splat>,
     depths: Vec<u8>,
 }
@@ -91,7 +96,7 @@ struct RowSplats {
 impl RowSplats {
     fn of(&self, pixel: usize) -> &[Splat] {
         let start = if pixel == 0 { 0 } else { self.ends[pixel - 1] };
-        &self.splats[start as usize..self.ends[pixel] as usize]
+        &self.splats[start..self.ends[pixel]]
     }
 }
 
@@ -120,7 +125,7 @@ impl<R: Rows> Reconstruction<R> {
             return false;
         }
         self.next_row = Some(bottom);
-        if self.kernel.reach() > 0 {
+        if !self.kernel.is_box() {
             self.keep(needed.y, y..bottom);
         }
         true
@@ -138,7 +143,7 @@ impl<R: Rows> Reconstruction<R> {
             let mut row = RowSplats { ends: Vec::new(), splats: Vec::new(), depths: Vec::new() };
             for x in self.columns.0..self.columns.1 {
                 self.rows.splats(x, y, &mut row.splats);
-                row.ends.push(row.splats.len() as u32);
+                row.ends.push(row.splats.len());
                 row.depths.push(self.rows.depth(x, y));
             }
             self.sampled.push_back(row);
@@ -147,9 +152,9 @@ impl<R: Rows> Reconstruction<R> {
 
     /// How often a pixel was divided.
     pub(crate) fn depth(&self, x: u32, y: u32) -> u8 {
-        match self.kernel.reach() {
-            0 => self.rows.depth(x, y),
-            _ => self.sampled[(y - self.first_row) as usize].depths[(x - self.columns.0) as usize],
+        match self.kernel.is_box() {
+            true => self.rows.depth(x, y),
+            false => self.sampled[(y - self.first_row) as usize].depths[(x - self.columns.0) as usize],
         }
     }
 
@@ -157,7 +162,7 @@ impl<R: Rows> Reconstruction<R> {
     /// each times its weight, in this order.
     pub(crate) fn splats(&self, x: u32, y: u32, splats: &mut Vec<Splat>) {
         splats.clear();
-        if self.kernel.reach() == 0 {
+        if self.kernel.is_box() {
             self.rows.splats(x, y, splats);
         } else {
             let center = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
@@ -171,7 +176,7 @@ impl<R: Rows> Reconstruction<R> {
                 }));
             }
         }
-        if self.kernel.reach() > 0 || splats.iter().any(|splat| !splat.is_finite) {
+        if !self.kernel.is_box() || splats.iter().any(|splat| !splat.is_finite) {
             normalize(splats);
         }
     }
@@ -183,7 +188,12 @@ pub(crate) fn normalize(splats: &mut [Splat]) {
         splat.weight = if splat.is_finite { splat.weight } else { 0.0 };
     }
     let sum: f64 = splats.iter().map(|splat| f64::from(splat.weight)).sum();
-    if sum > 0.0 {
+    // Where the good samples have next to no weight together, as may be in the outer half of Mitchell's filter, they say
+    // nothing of the pixel: it is black, as if it had none.
+    let least: f64 = 1e-3 * splats.iter().map(|splat| f64::from(splat.weight.abs())).sum::<f64>();
+    if sum <= least {
+        splats.iter_mut().for_each(|splat| splat.weight = 0.0);
+    } else {
         splats.iter_mut().for_each(|splat| splat.weight = (f64::from(splat.weight) / sum) as f32);
     }
 }

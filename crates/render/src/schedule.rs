@@ -9,6 +9,7 @@ use crate::eye::SceneEye;
 use crate::film::{Account, Film, Region, Tile};
 use crate::first_hits::FirstHits;
 use crate::integrators::whitted::Whitted;
+use crate::memory::rows_at_a_time;
 use crate::pixel::render_pixel;
 use crate::reconstruct::{Reconstruction, color_of, normalize};
 use durer_math::Rgb;
@@ -91,7 +92,8 @@ pub fn render(scene: &CompiledScene, options: &RenderOptions, progress: &dyn Pro
 }
 
 /// Goes on with a film of the same scene until all of it is finished, or `progress` stops it. What is on it already is not
-/// touched, and in the end it holds what one call of [`render`] makes.
+/// touched, and in the end its pixels are those that one call of [`render`] makes. (It may count some more rays: what
+/// neighboring pixels share is traced again where the film was left.)
 ///
 /// # Errors
 ///
@@ -179,21 +181,28 @@ impl WithAntialias for RenderAll<'_> {
         let RenderAll { scene, film, progress } = self;
         let mut reconstruction = Reconstruction::new(rows, filter, film.region(), scene.picture_size());
         let stop = || progress.stop();
+        let eye = SceneEye { scene, stop: &stop };
+        let at_a_time = rows_at_a_time(&scene.settings, film.region().width);
         for band in film.unfinished_bands() {
-            let mut account = Account::default();
-            if stop() || !reconstruction.sample(&SceneEye { scene }, band, &mut account, &stop) {
-                break;
+            let mut tile = Tile::new(band);
+            for rows in (0..band.height).step_by(at_a_time as usize) {
+                let height = at_a_time.min(band.height - rows);
+                let part = Region { y: band.y + rows, height, ..band };
+                if stop() || !reconstruction.sample(&eye, part, &mut tile.account, &stop) {
+                    return;
+                }
+                add_pixels(&reconstruction, part, &mut tile);
             }
-            film.put(&render_band(&reconstruction, band, account));
+            film.put(&tile);
             progress.finished(film.finished_pixels(), film.region().pixels());
             progress.advanced(film);
         }
     }
 }
 
-/// A band of pixels, of samples that are there.
-fn render_band<R: Rows>(reconstruction: &Reconstruction<R>, band: Region, account: Account) -> Tile {
-    let places: Vec<(u32, u32)> = band.pixel_places().collect();
+/// Adds pixels, of samples that are there.
+fn add_pixels<R: Rows>(reconstruction: &Reconstruction<R>, region: Region, tile: &mut Tile) {
+    let places: Vec<(u32, u32)> = region.pixel_places().collect();
     let chunks = places.par_chunks(CHUNK).map(|places| {
         let mut splats = Vec::new();
         let pixel = |&(x, y): &(u32, u32)| {
@@ -202,8 +211,10 @@ fn render_band<R: Rows>(reconstruction: &Reconstruction<R>, band: Region, accoun
         };
         places.iter().map(pixel).collect::<Vec<_>>()
     });
-    let (pixels, depths) = chunks.collect::<Vec<_>>().into_iter().flatten().unzip();
-    Tile { region: band, pixels, depths, account }
+    for (color, depth) in chunks.collect::<Vec<_>>().into_iter().flatten() {
+        tile.pixels.push(color);
+        tile.depths.push(depth);
+    }
 }
 
 /// Items are dealt out to threads in pieces of so many.
@@ -269,9 +280,7 @@ pub(crate) fn in_tiles<G: Send, T: Send>(
 }
 
 fn render_tile<A: Antialias>(scene: &CompiledScene, region: Region, antialias: &A) -> Tile {
-    let length = region.pixels() as usize;
-    let (pixels, depths) = (Vec::with_capacity(length), Vec::with_capacity(length));
-    let mut tile = Tile { region, pixels, depths, account: Account::default() };
+    let mut tile = Tile::new(region);
     let first_hits = FirstHits::find(scene, antialias, region);
     for (x, y) in region.pixel_places() {
         let known = first_hits.of_pixel(tile.pixels.len());
@@ -292,5 +301,5 @@ fn without_bad_samples<A: Antialias>(scene: &CompiledScene, antialias: &A, (x, y
 
 /// The samples of a pixel that stands alone.
 pub(crate) fn pixel_alone<A: Antialias>(scene: &CompiledScene, antialias: &A, x: u32, y: u32) -> Vec<Splat> {
-    crate::antialias::alone::list(&SceneEye { scene }, antialias, (x, y), &mut Account::default()).0
+    crate::antialias::alone::list(&SceneEye::new(scene), antialias, (x, y), &mut Account::default()).0
 }

@@ -76,11 +76,12 @@ enum What {
 
 /// Draws the map.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    let interrupt = Interrupt::after(arguments.scene.time_limit());
     let path = arguments.output_path();
     let format = target::format_of(&path)?;
     let scene = arguments.overrides.apply(arguments.scene.load(arguments.show())?)?;
     let (width, height) = (scene.scene().picture.width, scene.scene().picture.height);
-    let Counted { counts, summaries } = arguments.count(&scene)?;
+    let Counted { counts, summaries } = arguments.count(&scene, &interrupt)?;
     let scale = arguments.scale.unwrap_or_else(|| almost_all(&counts));
     PictureFile::create(&path)?.write(&picture((width, height), &counts, scale), &target::usual(format))?;
     if arguments.json {
@@ -111,8 +112,7 @@ impl Arguments {
         self.output.clone().unwrap_or_else(|| PathBuf::from(self.scene.name()).with_extension("heat.png"))
     }
 
-    fn count(&self, scene: &CheckedScene) -> Result<Counted, Failure> {
-        let interrupt = Interrupt::after(self.scene.time_limit());
+    fn count(&self, scene: &CheckedScene, interrupt: &Interrupt) -> Result<Counted, Failure> {
         durer::with_threads(self.threads.map(usize::from), || {
             let compiled = self.scene.compile(scene, self.show())?;
             let bar = Bar::new(interrupt.stop_flag(), 0, self.show());

@@ -35,8 +35,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let checkpoint = read_checkpoint(path).map_err(|error| cannot(error.to_string()))?;
     let origin = checkpoint.origin.clone();
     let words = ["durer", "render"].into_iter().chain(origin.words.iter().map(String::as_str));
-    let Ok(Cli { command: Command::Render(mut render) }) = Cli::try_parse_from(words) else {
-        return Err(cannot("it does not say how it was begun".to_owned()));
+    let mut render = match Cli::try_parse_from(words) {
+        Ok(Cli { command: Command::Render(render) }) => render,
+        Ok(_) => return Err(cannot("it does not say how it was begun".to_owned())),
+        // Among them an instruction set that this machine lacks.
+        Err(error) => return Err(cannot(format!("what it was begun with does not work here: {}", error.render()))),
     };
     render.resumed_in(Path::new(&origin.folder), path);
     Job { arguments: &render, manner: &arguments.manner, origin: Some(origin) }.run(Some(checkpoint))

@@ -111,3 +111,55 @@ objects: [rectangle: {{corner: [-9, -9, 0], edges: [[9.05, 0, 0], [0, 18, 0]], m
     assert_eq!(rays(0.099), 1600 * 4);
     assert_eq!(rays(0.101), 1600 * 4 + 40 * 16);
 }
+
+/// Things far thinner than a pixel, white on black: all of their light is there, whatever they are and wherever they lie.
+#[test]
+fn the_light_of_thin_things_is_all_there() {
+    let bright = "material: {color: 1, ambient: 1}";
+    let things = [
+        (
+            "close to a wall",
+            format!("cylinder: {{base: [-0.7, 0.013, -1], top: [0.7, 0.05, -1], radius: 0.0008, {bright}}}"),
+        ),
+        (
+            "away from the eye",
+            format!("cylinder: {{base: [0.2, -0.3, 4.99], top: [-0.4, 0.7, -30], radius: 0.002, {bright}}}"),
+        ),
+        ("a triangle", format!("triangle: {{vertices: [[-1.5, 0.1, 0], [1.4, 0.4, 0], [1.4, 0.404, 0]], {bright}}}")),
+        ("a ring", format!("disc: {{normal: [0, 0.1, 1], inner_radius: 0.797, radius: 0.8, {bright}}}")),
+        ("a torus", format!("torus: {{axis: [0, 0.2, 1], radius: 0.8, tube_radius: 0.002, {bright}}}")),
+        (
+            "a mesh",
+            format!(
+                "mesh: {{vertices: [[-1.5, 0.1, 0], [1.4, 0.4, 0], [1.4, 0.404, 0], [-1.5, 0.104, 0]], triangles: [[0, 1, 2], [0, 2, 3]], {bright}}}"
+            ),
+        ),
+        (
+            "a solid",
+            format!(
+                "union: {{objects: [cylinder: {{base: [-1, -0.3, 0], top: [1, 0.5, 0], radius: 0.002}}, cylinder: {{base: [-1, 0.5, 0], top: [1, -0.3, 0], radius: 0.002}}], {bright}}}"
+            ),
+        ),
+        (
+            "particles",
+            format!("spheres: {{centers: [[0.1, 0.2, 0], [0.9, -0.6, 0], [-0.77, 0.31, 0]], radius: 0.003, {bright}}}"),
+        ),
+    ];
+    for (name, thing) in things {
+        let light = |antialias: &str| -> f64 {
+            let text = format!(
+                "camera: {{position: [0, 0, 5], look_at: [0, 0, 0], fov: 30}}
+picture: {{width: 60, height: 60}}
+render: {{antialias: {antialias}}}
+background: 0
+lights: []
+objects:
+  - {thing}
+  - plane: {{point: [0, 0, -1.05], normal: [0, 0, 1], material: {{color: 0}}}}"
+            );
+            film(&compile(scene(&text))).develop().pixels.iter().map(|p| f64::from(p.r)).sum()
+        };
+        let (found, all) = (light("adaptive"), light("{grid: 32}"));
+        assert!((found - all).abs() < 0.1 * all, "{name}: {found}, not {all}");
+    }
+}

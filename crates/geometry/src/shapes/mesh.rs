@@ -54,6 +54,18 @@ impl Mesh {
     /// The most triangles that one mesh can have.
     pub const MOST_TRIANGLES: usize = MAX_ITEMS;
 
+    /// Calls `visit` with the corners of each triangle, in the mesh's own space.
+    pub(crate) fn each_triangle(&self, mut visit: impl FnMut([DVec3; 3])) {
+        let positions = self.source.positions();
+        for triangle in self.source.triangles() {
+            visit(triangle.map(|vertex| wide(positions[vertex as usize])));
+        }
+    }
+
+    pub(crate) fn triangle_count(&self) -> usize {
+        self.source.triangles().len()
+    }
+
     /// Builds the tree, with as many threads as the current pool has.
     pub fn build(source: Arc<dyn MeshSource>, plan: Plan) -> Mesh {
         let (positions, triangles) = (source.positions(), source.triangles());

@@ -243,11 +243,19 @@ impl Particles {
         each_kind!(&self.blocks, _Kind, blocks => blocks[block].ids[slot])
     }
 
+    /// An upper bound on their number, and close to it.
+    pub(crate) fn count(&self) -> usize {
+        each_kind!(&self.blocks, _Kind, blocks => blocks.len() * SLOTS)
+    }
+
     /// Calls `visit` with each particle, in the particles' space, and its number; with some of them more than once.
     pub(crate) fn each_slender(&self, visit: &mut dyn FnMut(Slender, u32)) {
         each_kind!(&self.blocks, Kind, blocks => {
             for block in blocks {
-                (0..SLOTS).for_each(|slot| visit(Kind::of(block.numbers(slot)).slender(), block.ids[slot]));
+                // The slots that are left over repeat the last one.
+                for slot in (0..SLOTS).filter(|&slot| slot == 0 || block.ids[slot] != block.ids[slot - 1]) {
+                    visit(Kind::of(block.numbers(slot)).slender(), block.ids[slot]);
+                }
             }
         });
     }

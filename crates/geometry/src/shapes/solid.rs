@@ -75,6 +75,11 @@ struct Node {
 const FAR: f64 = 16.0;
 
 impl Solid {
+    /// The shapes that it is made of, in its canonical space.
+    pub(crate) fn shapes(&self) -> impl Iterator<Item = &Primitive> {
+        self.leaves.iter().map(|leaf| &leaf.shape)
+    }
+
     /// The leaf that a part belongs to.
     pub(crate) fn leaf_of(&self, part: u32) -> usize {
         self.leaves.partition_point(|leaf| leaf.first_part <= part).saturating_sub(1)

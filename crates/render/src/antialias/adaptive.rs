@@ -229,6 +229,8 @@ impl<'s> Adaptive<'s> {
         sides.sort_unstable();
         sides.dedup();
         sides.retain(|side| self.between(*side).is_none());
+        // Every search begins in the middle, where two searches of one side may meet.
+        self.look_at(eye, sides.iter().map(|side| side.middle()).collect(), account);
         let found = in_parallel(&sides, account, |side, account| side.search(self, eye, account));
         for (side, (between, looked)) in sides.iter().zip(found) {
             self.sides.entry(side.middle()).or_default()[side.number()] = Some(between);
@@ -243,7 +245,11 @@ impl<'s> Adaptive<'s> {
 
     /// Looks at what is needed to treat the quarters of cells.
     fn look_closer(&mut self, eye: &impl Eye, cells: &[Cell], account: &mut Account) {
-        let mut places: Vec<Place> = cells.iter().flat_map(|cell| cell.new_places()).collect();
+        self.look_at(eye, cells.iter().flat_map(|cell| cell.new_places()).collect(), account);
+    }
+
+    /// Looks at places, but at none again.
+    fn look_at(&mut self, eye: &impl Eye, mut places: Vec<Place>, account: &mut Account) {
         places.sort_unstable();
         places.dedup();
         places.retain(|&place| self.looks.get(place).is_none());
@@ -336,7 +342,7 @@ impl Rows for Adaptive<'_> {
             outcomes = self.outcomes(eye, &cells, account);
         }
         self.gather();
-        true
+        !stop()
     }
 
     fn splats(&self, x: u32, y: u32, splats: &mut Vec<Splat>) {

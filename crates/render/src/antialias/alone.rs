@@ -37,7 +37,9 @@ impl<A: Antialias> Rows for Alone<A> {
             if stop() {
                 return (Vec::new(), 0);
             }
-            list(eye, &self.antialias, place, account)
+            let (mut splats, depth) = list(eye, &self.antialias, place, account);
+            splats.retain(|splat| splat.weight != 0.0);
+            (splats, depth)
         });
         !stop()
     }

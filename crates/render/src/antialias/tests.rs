@@ -173,7 +173,7 @@ fn fewer_rays_than_others_and_less_error() {
 #[test]
 fn no_ray_is_traced_twice() {
     let small = SmallThings::discs(all_discs(), SIZE);
-    for picture in [discs, star] {
+    for picture in [discs, star, edges, zone_plate] {
         let mut looked = Made::by(&Painted::new(picture, true), adaptive(&small), PixelFilter::Box).looked;
         let count = looked.len();
         looked.sort_unstable();

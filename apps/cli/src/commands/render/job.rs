@@ -14,7 +14,7 @@ use durer::{
     CheckedScene, Checkpoint, Film, Origin, PictureFile, Progress, Region, RenderError, RenderOptions, SceneHash,
     Sources, read_checkpoint, temporary_beside,
 };
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// What is to be done.
@@ -41,6 +41,9 @@ impl Job<'_> {
         let (arguments, show) = (self.arguments, self.manner.show());
         let interrupt = Interrupt::after(arguments.scene.time_limit());
         let path = arguments.output_path();
+        if arguments.saving.checkpoint.as_ref().is_some_and(|checkpoint| same_place(checkpoint, &path)) {
+            return Err(Failure::usage("--checkpoint: the checkpoint cannot be the same file as the picture"));
+        }
         let format = target::format_of(&path)?;
         let mut options = arguments.file.encode_options(format)?;
         let (loaded, load) = timed(|| arguments.scene.load_with_sources(show));
@@ -120,6 +123,10 @@ impl Job<'_> {
                 Ok(())
             }
             // What somebody else keeps under a name that was given is not written over.
+            Ok(_) if when == When::Always => {
+                let why = "it is a checkpoint of another render; remove it, or give another name";
+                Err(Failure::file(format!("{} is not written over: {why}", path.display())))
+            }
             Err(error) if when == When::Always => {
                 Err(Failure::file(format!("{} is not written over: {error}", path.display())))
             }
@@ -260,6 +267,15 @@ fn fitting(checkpoint: Checkpoint, saver: &Saver<'_>, region: Region) -> Result<
     Ok(checkpoint.film)
 }
 
+/// True if two paths, of files that need not be there, lead to the same place.
+fn same_place(a: &Path, b: &Path) -> bool {
+    let folder = |path: &Path| {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
+    };
+    a.file_name() == b.file_name() && folder(a) == folder(b)
+}
+
 fn saving_from_the_start(arguments: &Arguments) -> bool {
     arguments.saving.times().0 == When::Always
 }
@@ -270,7 +286,7 @@ fn differences(before: &SceneHash, now: &SceneHash) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-fn how_to_go_on(path: &std::path::Path) -> String {
+fn how_to_go_on(path: &Path) -> String {
     format!("what is finished is kept; go on with: durer resume {}", path.display())
 }
 

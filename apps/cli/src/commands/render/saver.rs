@@ -1,5 +1,5 @@
-//! Writes checkpoints while a render goes on. Threads that trace rays wait no longer than it takes to copy the film; a
-//! thread of its own writes the file.
+//! Writes checkpoints while a render goes on. Threads that trace rays wait no longer than it takes to put the film into bytes;
+//! a thread of its own writes the file.
 
 use crate::output;
 use durer::{CheckedScene, Film, Origin, SceneHash, Sources, encode_checkpoint, write_whole};

@@ -49,7 +49,7 @@ impl Particle<{ spheres::NUMBERS }> for Ball {
     }
 
     fn slender(&self) -> Slender {
-        Slender { ends: [self.center; 2], radius: self.radius, core: self.radius }
+        Slender { ends: [self.center; 2], radius: self.radius, core: self.radius, is_part: false }
     }
 
     fn surface(&self, point: DVec3, _face: u32) -> (DVec3, DVec3) {

@@ -50,7 +50,7 @@ impl Particle<{ capsules::NUMBERS }> for Capsule {
     }
 
     fn slender(&self) -> Slender {
-        Slender { ends: [self.axis.base, self.axis.top], radius: self.radius, core: self.radius }
+        Slender { ends: [self.axis.base, self.axis.top], radius: self.radius, core: self.radius, is_part: false }
     }
 
     fn surface(&self, point: DVec3, _face: u32) -> (DVec3, DVec3) {

@@ -83,7 +83,7 @@ impl<const OPEN: bool> Particle<{ frusta::NUMBERS }> for Frustum<OPEN> {
 
     fn slender(&self) -> Slender {
         let core = (self.radii[0] + self.radii[1]) * 0.5;
-        Slender { ends: [self.axis.base, self.axis.top], radius: self.widest(), core }
+        Slender { ends: [self.axis.base, self.axis.top], radius: self.widest(), core, is_part: false }
     }
 
     fn surface(&self, point: DVec3, face: u32) -> (DVec3, DVec3) {

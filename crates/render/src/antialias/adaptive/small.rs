@@ -3,7 +3,7 @@
 
 use super::super::lattice::UNIT;
 use super::Cell;
-use crate::camera::Camera;
+use crate::camera::Projected;
 use crate::compile::CompiledScene;
 use crate::eye::{Look, thing};
 use crate::film::Region;
@@ -14,6 +14,10 @@ use durer_math::DVec2;
 const MOST_LEVEL: u8 = 6;
 /// Squares that a thing reaches into with less than this part of its radius may miss it.
 const HEART: f64 = 0.45;
+/// With more things than these in the scene, copies counted, none is looked for: they are too many to be known one by one.
+pub(crate) const MOST_THINGS: u64 = 4_000_000;
+/// Bytes that are held for one of them.
+pub(crate) const SMALL_THING: u64 = size_of::<SmallThing>() as u64 + 8;
 /// Rows in a bucket.
 const BUCKET: u32 = 32;
 
@@ -26,6 +30,8 @@ struct SmallThing {
     number: u32,
     /// How far away its nearest point is.
     near: f32,
+    /// True if it is found where one sample meets it: one is not enough for what may go on beside it, like a line.
+    is_found_by_one: bool,
     /// How often pixels must be divided so that samples cannot all miss it.
     level: u8,
 }
@@ -50,11 +56,21 @@ impl SmallThings {
     /// Those of a scene.
     pub(crate) fn of(scene: &CompiledScene) -> SmallThings {
         let (width, height) = scene.picture_size();
+        let primitives = scene.world.primitives();
+        if primitives.iter().map(|primitive| primitive.thing_count() as u64).sum::<u64>() > MOST_THINGS {
+            return SmallThings::default();
+        }
         let mut things = Vec::new();
-        for (primitive, index) in scene.world.primitives().iter().zip(0..) {
-            primitive.each_slender(|slender, number| {
-                let seen = SmallThing::seen(&slender, &scene.camera, (width, height));
-                things.extend(seen.map(|seen| SmallThing { number: thing(index, number), ..seen }));
+        for (primitive, index) in primitives.iter().zip(0..) {
+            primitive.each_slender(&mut |slender, number| {
+                for piece in scene.camera.project_pieces(slender.ends) {
+                    let seen = SmallThing::seen(&slender, piece, (width, height));
+                    let number = thing(index, number);
+                    things.extend(seen.map(|seen| {
+                        let is_found_by_one = slender.is_part || seen.is_found_by_one;
+                        SmallThing { number, is_found_by_one, ..seen }
+                    }));
+                }
             });
         }
         SmallThings::sorted(things, height)
@@ -120,7 +136,7 @@ impl SmallThings {
         let looks = looks();
         let missed = |thing: &&SmallThing| {
             let is_hidden = || looks.iter().all(|look| look.hides && look.depth <= thing.near);
-            let is_seen = || looks.iter().any(|look| look.thing == thing.number);
+            let is_seen = || thing.is_found_by_one && looks.iter().any(|look| look.thing == thing.number);
             thing.level > cell.level && thing.touches(cell) && !is_seen() && !is_hidden()
         };
         things
@@ -148,15 +164,14 @@ impl OfPixels {
 }
 
 impl SmallThing {
-    /// `None` if it is out of the picture, too.
-    fn seen(slender: &Slender, camera: &Camera, (width, height): (u32, u32)) -> Option<SmallThing> {
-        let [a, b] = camera.project_line(slender.ends)?;
+    /// A piece of a thing, between two points of its line. `None` if it is out of the picture, too.
+    fn seen(slender: &Slender, [a, b]: [Projected; 2], (width, height): (u32, u32)) -> Option<SmallThing> {
         let radius = slender.radius * a.scale.max(b.scale);
         let core = slender.core * a.scale.min(b.scale);
         let (min, max) = (a.at.min(b.at) - radius, a.at.max(b.at) + radius);
         let is_in_picture = max.x >= 0.0 && max.y >= 0.0 && min.x <= f64::from(width) && min.y <= f64::from(height);
-        // A little less, for the rounding.
-        let near = (a.distance.min(b.distance) - slender.radius * 1.001) as f32;
+        // Between its ends a line may come nearer to the eye, but not nearer than its depth. A little less, for the rounding.
+        let near = (a.depth.min(b.depth) - slender.radius * 1.001) as f32;
         if is_in_picture { SmallThing::new([a.at, b.at], radius, core, near) } else { None }
     }
 
@@ -168,7 +183,8 @@ impl SmallThing {
             return None;
         }
         let level = (0..MOST_LEVEL).find(|&level| 0.95 * core * f64::from(1_u32 << level) >= 0.5).unwrap_or(MOST_LEVEL);
-        Some(SmallThing { ends, radius, number: 0, near, level })
+        let is_found_by_one = (ends[1] - ends[0]).length() <= 2.0 * radius;
+        Some(SmallThing { ends, radius, number: 0, near, is_found_by_one, level })
     }
 
     /// The first and the last row of pixels that it may touch.
