@@ -35,7 +35,7 @@ pub(super) const ENTRIES: &[Entry] = &[
         heading: "Thinner than a pixel",
         text: "Wires down to a tenth of a pixel, specks of dust down to a fifth of one, and a fence far away. Under the \
                adaptive method, the default, each of them is looked for where it is; the others find what their rays happen \
-               to meet. From left to right these took 38, 870, 88 and 820 thousand rays of the eye.",
+               to meet. From left to right these took 38, 870, 88 and 850 thousand rays of the eye.",
         pictures: &[
             Picture {
                 name: "thin-none",
