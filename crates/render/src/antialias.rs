@@ -8,6 +8,7 @@ pub(crate) mod adaptive;
 pub(crate) mod alone;
 pub(crate) mod grid;
 pub(crate) mod lattice;
+mod own;
 pub(crate) mod pov;
 pub(crate) mod recursive;
 #[cfg(test)]

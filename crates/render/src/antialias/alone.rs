@@ -1,25 +1,20 @@
 //! Pixels that stand alone, in bands: for filters that need the samples of neighbors beside the pixel's own.
 
+use super::own::PixelSamples;
 use super::{Antialias, Rows, Sample, Samples, Splat};
 use crate::eye::Eye;
 use crate::film::{Account, Region};
-use crate::schedule::in_parallel;
 use durer_math::DVec2;
 
 /// Makes bands of pixels that stand alone.
 pub(crate) struct Alone<A> {
     antialias: A,
-    band: Region,
-    pixels: Vec<(Vec<Splat>, u8)>,
+    pixels: PixelSamples,
 }
 
 impl<A: Antialias> Alone<A> {
     pub(crate) fn new(antialias: A) -> Alone<A> {
-        Alone { antialias, band: Region { x: 0, y: 0, width: 0, height: 0 }, pixels: Vec::new() }
-    }
-
-    fn pixel(&self, x: u32, y: u32) -> &(Vec<Splat>, u8) {
-        &self.pixels[(y - self.band.y) as usize * self.band.width as usize + (x - self.band.x) as usize]
+        Alone { antialias, pixels: PixelSamples::new() }
     }
 }
 
@@ -31,25 +26,20 @@ impl<A: Antialias> Rows for Alone<A> {
         account: &mut Account,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> bool {
-        let places: Vec<(u32, u32)> = band.pixel_places().collect();
-        self.band = band;
-        self.pixels = in_parallel(&places, account, |&place, account| {
-            if stop() {
-                return (Vec::new(), 0);
-            }
-            let (mut splats, depth) = list(eye, &self.antialias, place, account);
+        let pixels = PixelSamples::make(band, account, stop, |x, y, account| {
+            let (mut splats, depth) = list(eye, &self.antialias, (x, y), account);
             splats.retain(|splat| splat.weight != 0.0);
             (splats, depth)
         });
-        !stop()
+        pixels.map(|pixels| self.pixels = pixels).is_some()
     }
 
     fn splats(&self, x: u32, y: u32, splats: &mut Vec<Splat>) {
-        splats.extend_from_slice(&self.pixel(x, y).0);
+        splats.extend_from_slice(&self.pixels.of(x, y).0);
     }
 
     fn depth(&self, x: u32, y: u32) -> u8 {
-        self.pixel(x, y).1
+        self.pixels.of(x, y).1
     }
 }
 

@@ -1,10 +1,10 @@
 //! The two methods of POV-Ray, to compare with: what version 3.7 does, but for its jitter, which is left out.
 
 use super::lattice::{ByPlace, LatticeRows, Place, Span, UNIT};
+use super::own::{OwnSamples, PixelSamples};
 use super::{Rows, Splat};
 use crate::eye::{Eye, Look};
 use crate::film::{Account, Region};
-use crate::schedule::in_parallel;
 use durer_math::{DVec2, functions::pow};
 use std::collections::BTreeMap;
 
@@ -21,40 +21,6 @@ fn splat(at: DVec2, weight: f32, look: &Look) -> Splat {
     Splat { at, weight, color: look.color, is_finite: look.is_finite }
 }
 
-/// The samples of the pixels of a band that were looked at more closely.
-struct Closer {
-    band: Region,
-    pixels: Vec<Close>,
-}
-
-/// The samples of a pixel, none if it was not looked at more closely, and how often it was divided.
-type Close = (Vec<Splat>, u8);
-
-impl Closer {
-    fn new() -> Closer {
-        Closer { band: Region { x: 0, y: 0, width: 0, height: 0 }, pixels: Vec::new() }
-    }
-
-    /// Looks at each pixel. `None` if `stop` said so.
-    fn make(
-        band: Region,
-        account: &mut Account,
-        stop: &(dyn Fn() -> bool + Sync),
-        pixel: impl Fn(u32, u32, &mut Account) -> Close + Sync,
-    ) -> Option<Closer> {
-        let places: Vec<(u32, u32)> = band.pixel_places().collect();
-        let pixels = in_parallel(&places, account, |&(x, y), account| match stop() {
-            true => Close::default(),
-            false => pixel(x, y, account),
-        });
-        (!stop()).then_some(Closer { band, pixels })
-    }
-
-    fn of(&self, x: u32, y: u32) -> &Close {
-        &self.pixels[(y - self.band.y) as usize * self.band.width as usize + (x - self.band.x) as usize]
-    }
-}
-
 /// Method 1: a ray through the middle of each pixel. Where it differs from that of the pixel to the left or above, both are
 /// sampled again on a grid.
 pub(crate) struct Pov1 {
@@ -63,12 +29,12 @@ pub(crate) struct Pov1 {
     pub(crate) depth: u32,
     picture: (u32, u32),
     centers: LatticeRows,
-    closer: Closer,
+    closer: PixelSamples,
 }
 
 impl Pov1 {
     pub(crate) fn new(threshold: f32, depth: u32, picture: (u32, u32)) -> Pov1 {
-        Pov1 { threshold, depth, picture, centers: LatticeRows::new(), closer: Closer::new() }
+        Pov1 { threshold, depth, picture, centers: LatticeRows::new(), closer: PixelSamples::new() }
     }
 
     fn differs_from_a_neighbor(&self, x: u32, y: u32) -> bool {
@@ -110,10 +76,11 @@ impl Rows for Pov1 {
     ) -> bool {
         let around = band.grown(1, self.picture);
         self.centers.extend(eye, Span::centers(around), Place::center, account);
-        let closer = Closer::make(band, account, stop, |x, y, account| match self.differs_from_a_neighbor(x, y) {
-            true => (self.grid(eye, (x, y), account), 1),
-            false => Close::default(),
-        });
+        let closer =
+            PixelSamples::make(band, account, stop, |x, y, account| match self.differs_from_a_neighbor(x, y) {
+                true => (self.grid(eye, (x, y), account), 1),
+                false => OwnSamples::default(),
+            });
         closer.map(|closer| self.closer = closer).is_some()
     }
 
@@ -136,12 +103,12 @@ pub(crate) struct Pov2 {
     /// A pixel has at the most (2^(depth - 1) + 1)² samples.
     pub(crate) depth: u32,
     corners: LatticeRows,
-    closer: Closer,
+    closer: PixelSamples,
 }
 
 impl Pov2 {
     pub(crate) fn new(threshold: f32, depth: u32) -> Pov2 {
-        Pov2 { threshold, depth, corners: LatticeRows::new(), closer: Closer::new() }
+        Pov2 { threshold, depth, corners: LatticeRows::new(), closer: PixelSamples::new() }
     }
 
     fn corners_of(&self, x: u32, y: u32) -> [&Look; 4] {
@@ -152,7 +119,7 @@ impl Pov2 {
         (0..4).any(|i| (0..i).any(|j| difference(corners[i], corners[j]) >= self.threshold))
     }
 
-    fn divide(&self, eye: &impl Eye, (x, y): (u32, u32), account: &mut Account) -> Close {
+    fn divide(&self, eye: &impl Eye, (x, y): (u32, u32), account: &mut Account) -> OwnSamples {
         let place = Place::corner(x, y);
         let (looks, weights) = (ByPlace::default(), BTreeMap::new());
         let mut square = Square { pov: self, eye, account, looks, weights, deepest: 1 };
@@ -212,10 +179,10 @@ impl Rows for Pov2 {
         stop: &(dyn Fn() -> bool + Sync),
     ) -> bool {
         self.corners.extend(eye, Span::corners(band), Place::corner, account);
-        let closer = Closer::make(band, account, stop, |x, y, account| {
+        let closer = PixelSamples::make(band, account, stop, |x, y, account| {
             match self.depth > 1 && self.differ(self.corners_of(x, y)) {
                 true => self.divide(eye, (x, y), account),
-                false => Close::default(),
+                false => OwnSamples::default(),
             }
         });
         closer.map(|closer| self.closer = closer).is_some()
