@@ -8,8 +8,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 pub(crate) const USAGE: &str = "  \
-  fuzz [--seconds N] [TARGET ...]
-                            try made-up input: each target, or only these, for 30 seconds or N";
+  fuzz [--seconds N | --tries N] [TARGET ...]
+                            try made-up input: each target, or only these, for 30 seconds or N; or N tries that are the
+                            same each time";
 
 /// The instrumentation of cargo-fuzz: the fuzzer learns which branches were taken and what was compared with what.
 /// Overflow and failed assertions count as findings.
@@ -35,8 +36,17 @@ const MOST_LINES: usize = 60;
 
 /// What is to be done.
 struct Plan<'a> {
-    seconds: u32,
+    length: Length,
     targets: Vec<&'a str>,
+}
+
+/// How long a target is tried.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Length {
+    /// With luck of its own each time, and what earlier runs have gathered.
+    Seconds(u32),
+    /// The same tries each time, so that only a change of the code can bring a finding.
+    Tries(u32),
 }
 
 /// Fuzzes.
@@ -45,24 +55,24 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     let folder = shell::root().join("fuzz");
     let built = build(&folder)?;
     for target in plan.targets {
-        fuzz(&folder, &built, target, plan.seconds)?;
+        fuzz(&folder, &built, target, plan.length)?;
     }
     Ok(())
 }
 
 impl<'a> Plan<'a> {
     fn of(words: &[&'a str]) -> Result<Plan<'a>, String> {
-        let (seconds, names) = match words {
-            ["--seconds", seconds, names @ ..] => {
-                (seconds.parse().map_err(|_| format!("`{seconds}` is no number of seconds"))?, names)
-            }
-            names => (30, names),
+        let number = |word: &str| word.parse().map_err(|_| format!("`{word}` is no number"));
+        let (length, names) = match words {
+            ["--seconds", seconds, names @ ..] => (Length::Seconds(number(seconds)?), names),
+            ["--tries", tries, names @ ..] => (Length::Tries(number(tries)?), names),
+            names => (Length::Seconds(30), names),
         };
         let known = durer_trials::TARGETS.map(|(name, _)| name);
         if let Some(unknown) = names.iter().find(|name| !known.contains(name)) {
             return Err(format!("there is no target `{unknown}`, only {}", known.join(", ")));
         }
-        Ok(Plan { seconds, targets: if names.is_empty() { known.to_vec() } else { names.to_vec() } })
+        Ok(Plan { length, targets: if names.is_empty() { known.to_vec() } else { names.to_vec() } })
     }
 }
 
@@ -85,15 +95,27 @@ fn host() -> Result<String, String> {
     host.map(str::to_owned).ok_or_else(|| "rustc does not say what machine this is".to_owned())
 }
 
-fn fuzz(folder: &Path, built: &Path, target: &str, seconds: u32) -> Result<(), String> {
-    let (corpus, findings) = (folder.join("corpus").join(target), folder.join("artifacts").join(target));
-    for folder in [&corpus, &findings] {
-        std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    }
+fn fuzz(folder: &Path, built: &Path, target: &str, length: Length) -> Result<(), String> {
+    let findings = folder.join("artifacts").join(target);
+    create(&findings)?;
     let mut command = Command::new(built.join(target));
-    command.arg(&corpus).args(seeds(folder, target));
+    match length {
+        Length::Seconds(seconds) => {
+            let corpus = folder.join("corpus").join(target);
+            create(&corpus)?;
+            command.arg(corpus).arg(format!("-max_total_time={seconds}"));
+        }
+        Length::Tries(tries) => {
+            let corpus = built.join("corpus").join(target);
+            // Empty, for what is gathered goes to the first folder.
+            let _ = std::fs::remove_dir_all(&corpus);
+            create(&corpus)?;
+            command.arg(corpus).args([format!("-runs={tries}"), "-seed=1".to_owned()]);
+        }
+    }
+    command.args(seeds(folder, target));
     command.arg(format!("-artifact_prefix={}/", findings.display()));
-    command.args([format!("-max_total_time={seconds}"), format!("-timeout={MOST_SECONDS}")]);
+    command.arg(format!("-timeout={MOST_SECONDS}"));
     command.args([format!("-rss_limit_mb={MOST_MEMORY}"), "-max_len=8192".to_owned()]);
     let output = command.output().map_err(|error| format!("{target}: {error}"))?;
     // Thousands of lines, of which one tells, unless something was found.
@@ -110,6 +132,10 @@ fn fuzz(folder: &Path, built: &Path, target: &str, seconds: u32) -> Result<(), S
         "{target}: {}\n{end}\nmend it, and move the file from {folder} to fuzz/regressions/{target}",
         output.status
     ))
+}
+
+fn create(folder: &Path) -> Result<(), String> {
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))
 }
 
 /// The folders that the fuzzer begins with beside what it has gathered.
@@ -129,7 +155,8 @@ mod tests {
     #[test]
     fn plans_are_read() {
         let plan = Plan::of(&["--seconds", "7", "obj", "stl"]).unwrap();
-        assert_eq!((plan.seconds, plan.targets), (7, vec!["obj", "stl"]));
+        assert_eq!((plan.length, plan.targets), (Length::Seconds(7), vec!["obj", "stl"]));
+        assert_eq!(Plan::of(&["--tries", "9"]).unwrap().length, Length::Tries(9));
         assert_eq!(Plan::of(&[]).unwrap().targets.len(), durer_trials::TARGETS.len());
         assert!(Plan::of(&["obje"]).is_err() && Plan::of(&["--seconds", "x"]).is_err());
     }

@@ -115,11 +115,7 @@ impl<'a> Input<'a> {
     }
 
     fn flag(&mut self) -> Option<bool> {
-        match self.array()? {
-            [0] => Some(false),
-            [1] => Some(true),
-            [_] => None,
-        }
+        self.array().and_then(|[byte]| truth(byte))
     }
 
     fn text(&mut self) -> Option<String> {
@@ -150,12 +146,25 @@ impl<'a> Input<'a> {
         let bad_samples = self.u64()?;
         let is_there = self.flag()?;
         let at = DVec2::new(f64::from_le_bytes(self.array()?), f64::from_le_bytes(self.array()?));
+        // What says nothing must be written as nothing: a film has one form.
+        if !is_there && at.to_array().map(f64::to_bits) != [0, 0] {
+            return None;
+        }
         let first_bad_sample = is_there.then_some(BadSample { at });
-        let finished = self.bytes(region.tile_count())?.iter().map(|&byte| byte == 1).collect();
+        let finished = self.bytes(region.tile_count())?.iter().map(|&byte| truth(byte)).collect::<Option<_>>()?;
         let colors = self.bytes(region.pixels().checked_mul(12)?)?;
         let pixels = colors.chunks_exact(12).map(color).collect();
         let depths = self.bytes(region.pixels())?.to_vec();
         Film::from_parts(FilmParts { region, pixels, depths, finished, rays, bad_samples, first_bad_sample })
+    }
+}
+
+/// Of a byte that is 0 or 1.
+fn truth(byte: u8) -> Option<bool> {
+    match byte {
+        0 => Some(false),
+        1 => Some(true),
+        _ => None,
     }
 }
 
