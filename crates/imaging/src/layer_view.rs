@@ -2,7 +2,7 @@
 //! false colors.
 
 use crate::false_color::magma;
-use crate::{Image, Layer, Layers, Samples, linear_from_srgb};
+use crate::{Image, Layers, Samples, linear_from_srgb};
 use durer_math::Rgb;
 
 /// A layer as a picture.
@@ -150,7 +150,7 @@ fn named(number: u32) -> Rgb {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ExrSamples;
+    use crate::{ExrSamples, Layer};
 
     fn one(name: &str, channels: &[(&str, Vec<f32>)]) -> LayerView {
         let channels = channels.iter().map(|(name, numbers)| crate::Channel {
