@@ -8,6 +8,7 @@ use crate::holes::Known;
 use crate::integrators::{Integrator, whitted::Whitted};
 use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Source, SurfaceSeen};
 use crate::reconstruct::{Reconstruction, color_of, normalize};
+use crate::sampler::Sampler;
 use crate::schedule::{WithAntialias, pixel_alone, with_antialias};
 use durer_geometry::{Hit, Ray, Surface};
 use durer_math::{DVec2, DVec3, Rgb};
@@ -161,7 +162,7 @@ pub fn explain(scene: &CompiledScene, x: u32, y: u32) -> Option<PixelExplanation
     let explained = splats.iter().filter_map(|splat| {
         let mut recorder = Recorder { scene, ray: None, open: Vec::new() };
         let ray = scene.camera.ray(splat.at);
-        let color = Whitted.radiance(scene, &ray, Known::Nothing, &mut recorder);
+        let color = Whitted.radiance(scene, &ray, Known::Nothing, &Sampler::of_place(0, splat.at), &mut recorder);
         let weight = (splat.weight != 0.0).then_some(splat.weight);
         Some(SampleExplanation { at: splat.at, weight, color, ray: recorder.ray? })
     });

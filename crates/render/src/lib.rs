@@ -4,15 +4,22 @@
 
 mod antialias;
 mod background;
+#[allow(dead_code)] // until the path tracer is wired
+mod bsdf;
 mod camera;
 mod compile;
+#[allow(dead_code)]
+mod emitters;
 mod explain;
 mod eye;
 mod film;
 mod first_hits;
 mod fog;
+#[allow(dead_code)]
+mod frame;
 mod heatmap;
 mod holes;
+#[allow(dead_code)]
 mod integrators;
 mod lights;
 mod materials;
@@ -21,6 +28,8 @@ mod memory;
 mod observer;
 mod pixel;
 mod reconstruct;
+#[allow(dead_code)]
+mod sampler;
 mod schedule;
 mod shading;
 mod textures;

@@ -32,6 +32,8 @@ pub enum Source {
     Diffuse(usize),
     /// The highlight of the light with this index.
     Specular(usize),
+    /// An emitter that was aimed at: the light with this index, or a shape or the background.
+    Light(Option<usize>),
 }
 
 /// Why a ray that a surface asks for was not traced.
