@@ -14,6 +14,7 @@ mod files;
 mod flip;
 mod image;
 mod quantize;
+mod tone_mapping;
 
 pub use about::{FileFacts, about};
 pub use bitmap::{Alpha, Bitmap, Texels};
@@ -24,3 +25,4 @@ pub use encode::{EncodeError, EncodeOptions, ExrSamples, FileFormat, PngDepth, e
 pub use false_color::false_color;
 pub use flip::ErrorMap;
 pub use image::Image;
+pub use tone_mapping::ToneMapping;

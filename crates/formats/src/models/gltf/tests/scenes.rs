@@ -28,7 +28,7 @@ fn lights() {
     let model = read(&lit(json!({ "type": "point", "intensity": 10, "color": [1, 0.5, 0] })));
     let light = &model.scene.lights[0];
     assert_eq!((light.name.as_deref(), light.color), (Some("lamp"), Rgb::new(1.0, 0.5, 0.0)));
-    assert!((f64::from(light.intensity) - 10.0 / std::f64::consts::PI).abs() < 1e-6);
+    assert!((f64::from(light.classic_intensity()) - 10.0 / std::f64::consts::PI).abs() < 1e-6);
     let position = DVec3::new(1.0, 2.0, 3.0);
     assert_eq!(light.kind, LightKind::Point { position, falloff: Falloff::InverseSquare });
 
