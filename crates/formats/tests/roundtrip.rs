@@ -1,7 +1,7 @@
 //! What is written reads back as the same scene, to the bit.
 
 use durer_formats::{Assets, Limits, NoAssets, load_str, to_yaml};
-use durer_imaging::{DecodeLimits, Transfer, decode};
+use durer_imaging::{DecodeLimits, ToneMapping, Transfer, decode};
 use durer_math::{DVec2, DVec3, Rgb};
 use durer_scene::*;
 use proptest::collection::vec;

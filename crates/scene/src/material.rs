@@ -81,6 +81,13 @@ impl Emission {
     }
 }
 
+impl Default for Emission {
+    /// [`Emission::NONE`].
+    fn default() -> Emission {
+        Emission::NONE
+    }
+}
+
 /// Sides of a surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sides {

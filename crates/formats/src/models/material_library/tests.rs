@@ -55,7 +55,7 @@ fn a_matte_surface_gives_back_its_color() {
     );
     assert_eq!(
         (plain.as_classic().unwrap().transparency, plain.as_classic().unwrap().ior, plain.emission),
-        (Rgb::BLACK, None, Rgb::BLACK)
+        (Rgb::BLACK, None, Emission::NONE)
     );
     assert_eq!(plain.name, None);
     assert_eq!(gray(&material("Kd 0.5")), 0.5, "one number is gray");
@@ -129,7 +129,7 @@ fn glass_refracts_and_reflects() {
 
 #[test]
 fn surfaces_may_glow() {
-    assert_eq!(material("Ke 3 2 1").emission, Rgb::new(3.0, 2.0, 1.0));
+    assert_eq!(material("Ke 3 2 1").emission, Emission::of(Rgb::new(3.0, 2.0, 1.0)));
 }
 
 #[test]
