@@ -155,8 +155,11 @@ impl Film {
         self.account.add(&tile.account);
     }
 
-    /// No more samples are to come: the film is of no others than those that it has.
+    /// No more samples are to come. If all pixels have as many, the film is one of these.
     pub(crate) fn finish_samples(&mut self) {
+        if let Some(sums) = &mut self.sums {
+            sums.close();
+        }
         self.finished.fill(true);
         self.finished_pixels = self.region.pixels();
     }

@@ -128,6 +128,14 @@ impl Sums {
         all_there && counted && parts_fit(parts, region) && (is_finished || matches!(&parts[..], [part] if is_begun(part)))
     }
 
+    /// If all pixels have the same samples, these were all that there are to be.
+    pub(super) fn close(&mut self) {
+        let (least, most) = self.least_and_most();
+        if let ([part], true) = (&mut self.parts[..], least == most && least > 0) {
+            part.samples.end = part.samples.start.saturating_add(least);
+        }
+    }
+
     /// All samples that were taken.
     pub fn samples(&self) -> u64 {
         self.taken.iter().map(|&taken| u64::from(taken)).sum()
