@@ -308,6 +308,19 @@ impl Material {
         }
     }
 
+    /// What takes light away inside of it, if anything does.
+    pub fn attenuation_mut(&mut self) -> Option<&mut Attenuation> {
+        match &mut self.kind {
+            MaterialKind::Classic(Classic { attenuation, .. }) | MaterialKind::Glass(Glass { attenuation, .. }) => {
+                attenuation.as_mut()
+            }
+            MaterialKind::Principled(principled) => principled.attenuation.as_mut(),
+            MaterialKind::Matte(_) | MaterialKind::Metal(_) | MaterialKind::Plastic(_) | MaterialKind::Mirror(_) => {
+                None
+            }
+        }
+    }
+
     /// All paints that it is made of.
     pub fn paints(&self) -> Vec<Paint> {
         self.clone().paints_mut().into_iter().map(|paint| *paint).collect()

@@ -17,7 +17,7 @@ pub fn scaled(mut scene: Scene, factor: f64) -> Scene {
         Fog::Exponential { color, distance } => Fog::Exponential { color, distance: distance * factor },
         Fog::Linear { color, start, end } => Fog::Linear { color, start: start * factor, end: end * factor },
     });
-    for attenuation in scene.materials.iter_mut().filter_map(|material| material.attenuation.as_mut()) {
+    for attenuation in scene.materials.iter_mut().filter_map(|material| material.attenuation_mut()) {
         attenuation.distance *= factor;
     }
     scene
