@@ -29,8 +29,8 @@ pub struct Film {
     sums: Option<Sums>,
 }
 
-/// A [`Film`] taken apart, to be stored and put together again.
-#[derive(Clone, Debug, PartialEq)]
+/// A [`Film`] taken apart, to be stored and put together again. The default is that of nothing at all.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmParts {
     /// Part of the picture that it is; not empty.
     pub region: Region,
@@ -218,10 +218,6 @@ impl Film {
     /// The sums of its samples, if it was made by an integrator that takes samples.
     pub fn sums(&self) -> Option<&Sums> {
         self.sums.as_ref()
-    }
-
-    pub(crate) fn sums_mut(&mut self) -> Option<&mut Sums> {
-        self.sums.as_mut()
     }
 
     /// How far it has come: its finished pixels, or the samples that it has.

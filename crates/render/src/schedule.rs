@@ -153,14 +153,11 @@ pub fn render_on(
 /// The samples that are to be taken, of integrators that take any.
 fn samples_of(scene: &CompiledScene, options: &RenderOptions) -> Result<Option<SampleRange>, RenderError> {
     let integrator = &scene.settings.integrator;
-    match integrator {
-        Integrator::Whitted | Integrator::Normals | Integrator::Depth | Integrator::Uv => Ok(None),
-        Integrator::Path { .. } | Integrator::AmbientOcclusion { .. } => {
-            let all = SampleRange { start: 0, end: scene.settings.samples };
-            let samples = options.samples.unwrap_or(all);
-            if samples.count() == 0 { Err(RenderError::NoSamples(integrator.word())) } else { Ok(Some(samples)) }
-        }
+    if !integrator.takes_samples() {
+        return Ok(None);
     }
+    let samples = options.samples.unwrap_or(SampleRange { start: 0, end: scene.settings.samples });
+    if samples.count() == 0 { Err(RenderError::NoSamples(integrator.word())) } else { Ok(Some(samples)) }
 }
 
 /// Takes samples with the integrator that the scene wants.

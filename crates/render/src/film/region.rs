@@ -3,8 +3,8 @@
 /// Edge of a tile, in pixels: small enough to share out evenly, large enough that sharing costs nothing.
 pub(crate) const TILE: u32 = 32;
 
-/// A rectangle of pixels within a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A rectangle of pixels within a picture. The default is empty.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Region {
     /// Left edge, in pixels from the picture's left.
     pub x: u32,
@@ -58,8 +58,10 @@ impl Region {
     pub(crate) fn cells(self, edge: u32) -> impl Iterator<Item = Region> {
         let pieces = move |from: u32, length: u32| {
             let end = from + length;
-            let starts = std::iter::successors(Some(from), move |&at| Some((at / edge + 1) * edge));
-            starts.take_while(move |&at| at < end).map(move |at| (at, ((at / edge + 1) * edge).min(end) - at))
+            let starts = std::iter::successors(Some(from), move |&at| Some((at / edge + 1).saturating_mul(edge)));
+            starts
+                .take_while(move |&at| at < end)
+                .map(move |at| (at, (at / edge + 1).saturating_mul(edge).min(end) - at))
         };
         pieces(self.y, self.height).flat_map(move |(y, height)| {
             pieces(self.x, self.width).map(move |(x, width)| Region { x, y, width, height })
@@ -106,7 +108,7 @@ mod tests {
             assert!(region.cells(edge).all(|cell| cell.x / edge == (cell.x + cell.width - 1) / edge));
         }
         let last = Region { x: u32::MAX - 40, y: u32::MAX - 3, width: 40, height: 3 };
-        assert_eq!(last.cells(32).map(Region::pixels).sum::<u64>(), last.pixels());
+        assert_eq!(last.cells(32).map(|cell| cell.pixels()).sum::<u64>(), last.pixels());
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! whatever their precision; and sums in trees of a fixed shape would, but only for the ranges that the tree has.
 
 use super::{Account, Region};
-use durer_math::{DVec2, Rgb};
+use durer_math::Rgb;
 
 /// A range of the samples of each pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -37,7 +37,7 @@ pub struct Sums {
     pub counts: Vec<[u32; 2]>,
     /// Of the colors, in linear light and steps of 2⁻⁶⁰.
     pub colors: Vec<[i128; 3]>,
-    /// Of the squares of their luminances, in the same steps: what chance does is estimated by them.
+    /// Of the squares of their luminances, in steps of 2⁻⁵⁰: what chance does is estimated by them.
     pub squares: Vec<i128>,
 }
 
@@ -65,20 +65,16 @@ impl SampleRange {
     }
 }
 
-/// The steps in 1.
-const ONE: f64 = (1_u64 << 60) as f64;
-/// The brightest that a sample may be; what is more counts as much.
-const MOST: f64 = (1_u64 << 34) as f64;
-
-/// A number in steps. Numbers of single precision from 2⁻³⁶ on are exact.
-fn fixed(number: f64) -> i128 {
-    (number.clamp(-MOST, MOST) * ONE) as i128
+/// A number in steps: so many are 1. What is more than 2⁹⁴ steps counts as much.
+fn fixed(number: f64, one: f64) -> i128 {
+    const MOST: f64 = (1_u128 << 94) as f64;
+    (number * one).clamp(-MOST, MOST) as i128
 }
 
-/// A sum as a number.
-fn real(sum: i128) -> f64 {
-    sum as f64 / ONE
-}
+/// The steps of a color in 1. Numbers of single precision from 2⁻³⁶ to 2³⁴ are exact.
+const COLOR: f64 = (1_u64 << 60) as f64;
+/// Those of the square of a luminance.
+const SQUARE: f64 = (1_u64 << 50) as f64;
 
 impl PixelSums {
     /// Adds a sample.
@@ -92,10 +88,10 @@ impl PixelSums {
         }
         let sign = if is_negative { -1 } else { 1 };
         for (sum, component) in self.color.iter_mut().zip(color.to_array()) {
-            *sum += i128::from(sign) * fixed(f64::from(component));
+            *sum += i128::from(sign) * fixed(f64::from(component), COLOR);
         }
         let luminance = f64::from(color.luminance());
-        self.square += fixed(luminance * luminance);
+        self.square += fixed(luminance * luminance, SQUARE);
         self.counts[usize::from(is_negative)] += 1;
         Ok(())
     }
@@ -123,9 +119,13 @@ impl Sums {
         let Sums { parts, taken, counts, colors, squares } = self;
         let length = region.pixels();
         let all_there = [taken.len(), counts.len(), colors.len(), squares.len()].iter().all(|&l| l as u64 == length);
-        let counted = taken.iter().zip(counts).all(|(taken, [a, b])| a.checked_add(*b).is_some_and(|sum| sum <= *taken));
+        let counted =
+            taken.iter().zip(counts).all(|(taken, [a, b])| a.checked_add(*b).is_some_and(|sum| sum <= *taken));
         let is_begun = |part: &Part| part.region == region && taken.iter().all(|&taken| taken <= part.samples.count());
-        all_there && counted && parts_fit(parts, region) && (is_finished || matches!(&parts[..], [part] if is_begun(part)))
+        all_there
+            && counted
+            && parts_fit(parts, region)
+            && (is_finished || matches!(&parts[..], [part] if is_begun(part)))
     }
 
     /// If all pixels have the same samples, these were all that there are to be.
@@ -160,19 +160,9 @@ impl Sums {
         self.squares[pixel] = self.squares[pixel].wrapping_add(more.square);
     }
 
-    /// Those of a pixel.
-    pub(crate) fn of(&self, pixel: usize) -> PixelSums {
-        PixelSums {
-            taken: self.taken[pixel],
-            counts: self.counts[pixel],
-            color: self.colors[pixel],
-            square: self.squares[pixel],
-        }
-    }
-
     /// The color of a pixel, as far as it is known; black if nothing is.
     pub fn mean(&self, pixel: usize) -> Rgb {
-        let [r, g, b] = self.colors[pixel].map(|sum| real(sum) / self.divisor(pixel));
+        let [r, g, b] = self.colors[pixel].map(|sum| sum as f64 / COLOR / self.divisor(pixel));
         Rgb::new(r as f32, g as f32, b as f32)
     }
 
@@ -187,7 +177,7 @@ impl Sums {
         let luminance = f64::from(self.mean(pixel).luminance());
         // Of a sample that counts negatively, that much is taken away: it is as far from the mean as that.
         let share = self.divisor(pixel) / count;
-        let of_samples = real(self.squares[pixel]) / count - (luminance * share) * (luminance * share);
+        let of_samples = self.squares[pixel] as f64 / SQUARE / count - (luminance * share) * (luminance * share);
         of_samples.max(0.0) / (count - 1.0) / (share * share)
     }
 
@@ -244,7 +234,7 @@ mod tests {
 
     fn colors() -> Vec<(Rgb, bool)> {
         let number = |n: u32| (n.wrapping_mul(2_654_435_761) >> 8) as f32 / 1e4;
-        (0..50).map(|n| (Rgb::new(number(n), number(n + 99) * 1e-6, number(n + 7) * 1e5), n % 11 == 3)).collect()
+        (0..50).map(|n| (Rgb::new(number(n), number(n + 99) * 1e-6, number(n + 7) * 1e2), n % 11 == 3)).collect()
     }
 
     #[test]
@@ -269,7 +259,8 @@ mod tests {
         near(f64::from(mean.g), of(&|color| f64::from(color.g)));
         near(f64::from(mean.b), of(&|color| f64::from(color.b)));
         let luminance = of(&|color| f64::from(color.luminance()));
-        let square = of(&|color| (f64::from(color.luminance()) - luminance) * (f64::from(color.luminance()) - luminance));
+        let square =
+            of(&|color| (f64::from(color.luminance()) - luminance) * (f64::from(color.luminance()) - luminance));
         near(sums.variance(0), square / (count - 1.0));
     }
 
@@ -288,7 +279,7 @@ mod tests {
     #[test]
     fn the_brightest_and_the_darkest_fit() {
         let bright = sums_of(&[(Rgb::gray(f32::MAX), false); 50]);
-        assert!((f64::from(bright.mean(0).r) / MOST - 1.0).abs() < 1e-6);
+        assert!((f64::from(bright.mean(0).r) / f64::from(1 << 17) / f64::from(1 << 17) - 1.0).abs() < 1e-6);
         let dark = Rgb::gray(1e-10);
         assert_eq!(sums_of(&[(dark, false); 50]).mean(0), dark);
     }

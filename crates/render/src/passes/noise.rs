@@ -40,7 +40,8 @@ impl Noise {
 
     /// The noise of some pixels together: the root of the mean of their squares.
     pub(crate) fn of(self, sums: &Sums, pixels: impl Iterator<Item = usize>) -> f64 {
-        let (sum, count) = pixels.fold((0.0, 0_u32), |(sum, count), pixel| (sum + self.of_pixel(sums, pixel), count + 1));
+        let (sum, count) =
+            pixels.fold((0.0, 0_u32), |(sum, count), pixel| (sum + self.of_pixel(sums, pixel), count + 1));
         (sum / f64::from(count.max(1))).sqrt()
     }
 
