@@ -10,6 +10,7 @@ mod tree;
 
 use crate::background::Background;
 use crate::camera::Camera;
+use crate::emitters::Emitters;
 use crate::fog::Fog;
 use crate::lights::Light;
 use crate::materials::Material;
@@ -40,6 +41,8 @@ pub struct CompiledScene {
     pub(crate) textures: Textures,
     /// The scene's, and after them those that imported files bring.
     pub(crate) lights: Vec<Light>,
+    /// All that gives light.
+    pub(crate) emitters: Emitters,
     /// For each light that shines from a point, what is seen from there.
     pub(crate) light_vantages: Vec<Option<Vantage>>,
     pub(crate) camera: Camera,
@@ -112,6 +115,7 @@ pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
         media_at_eye: media_at_eye(&objects, &world, &camera),
         eye_vantage: camera.eye().and_then(|eye| world.vantage(eye, OPAQUE | CLEAR)),
         camera,
+        emitters: Emitters::default(),
         light_vantages: vantages(&lights, &world),
         lights,
         world,

@@ -5,6 +5,7 @@ use crate::film::Account;
 use crate::holes::Known;
 use crate::integrators::{Integrator, whitted::Whitted};
 use crate::observer::{NotTraced, Observer, RayCounts, RayKind, SurfaceSeen};
+use crate::sampler::Sampler;
 use durer_geometry::{LANES, Packet, Ray};
 use durer_imaging::Transfer;
 use durer_math::{DVec2, Rgb};
@@ -96,7 +97,8 @@ impl Eye for SceneEye<'_> {
 impl SceneEye<'_> {
     fn look_at(&self, at: DVec2, known: Known<'_>, account: &mut Account) -> Look {
         let mut watch = Watch { scene: self.scene, rays: &mut account.rays, first: None };
-        let color = Whitted.radiance(self.scene, &self.scene.camera.ray(at), known, &mut watch);
+        let color =
+            Whitted.radiance(self.scene, &self.scene.camera.ray(at), known, &Sampler::of_place(0, at), &mut watch);
         let First { thing, piece, hides, depth, normal } = watch.first.unwrap_or(First::BACKGROUND);
         let is_finite = color.is_finite();
         if !is_finite {

@@ -1,14 +1,23 @@
 //! Integrators: what light arrives along a ray. One file each.
 
+pub(crate) mod path;
 pub(crate) mod whitted;
 
 use crate::compile::CompiledScene;
 use crate::holes::Known;
 use crate::observer::Observer;
+use crate::sampler::Sampler;
 use durer_geometry::Ray;
 use durer_math::Rgb;
 
 /// Estimates the light arriving along one ray. Owns no loop over pixels, no thread and no film.
 pub(crate) trait Integrator: Sync {
-    fn radiance<O: Observer>(&self, scene: &CompiledScene, ray: &Ray, known: Known<'_>, observer: &mut O) -> Rgb;
+    fn radiance<O: Observer>(
+        &self,
+        scene: &CompiledScene,
+        ray: &Ray,
+        known: Known<'_>,
+        sampler: &Sampler,
+        observer: &mut O,
+    ) -> Rgb;
 }

@@ -4,15 +4,22 @@
 
 mod antialias;
 mod background;
+#[allow(dead_code)] // until the path tracer is wired
+mod bsdf;
 mod camera;
 mod compile;
+#[allow(dead_code)]
+mod emitters;
 mod explain;
 mod eye;
 mod film;
 mod first_hits;
 mod fog;
+#[allow(dead_code)]
+mod frame;
 mod heatmap;
 mod holes;
+#[allow(dead_code)]
 mod integrators;
 mod lights;
 mod materials;
@@ -21,6 +28,8 @@ mod memory;
 mod observer;
 mod pixel;
 mod reconstruct;
+#[allow(dead_code)]
+mod sampler;
 mod schedule;
 mod shading;
 mod textures;
@@ -36,5 +45,5 @@ pub use explain::{
 pub use film::{BadSample, Film, FilmParts, Region};
 pub use heatmap::{HeatMap, heatmap};
 pub use memory::memory_needed;
-pub use observer::{NotTraced, RayCounts, RayKind, Source};
+pub use observer::{NotTraced, RayCounts, RayKind, Scattering, Source, Weighing};
 pub use schedule::{Progress, RenderError, RenderOptions, render, render_on, with_threads};

@@ -5,6 +5,7 @@ use crate::compile::CompiledScene;
 use crate::film::Account;
 use crate::holes::Known;
 use crate::integrators::Integrator;
+use crate::sampler::Sampler;
 use durer_geometry::Hit;
 use durer_math::{DVec2, Rgb};
 
@@ -50,7 +51,8 @@ impl<I: Integrator> Samples for Gathered<'_, I> {
             (None, None) => Known::Nothing,
         };
         let ray = self.scene.camera.ray(at);
-        let mut color = self.integrator.radiance(self.scene, &ray, known, &mut self.account.rays);
+        let sampler = Sampler::of_place(0, at);
+        let mut color = self.integrator.radiance(self.scene, &ray, known, &sampler, &mut self.account.rays);
         if !color.is_finite() {
             self.account.bad_sample(at);
             self.pixel.has_bad_samples = true;

@@ -103,7 +103,18 @@ impl<'a> Shading<'a> {
 
     /// The ray from here in the mirrored direction, which stays on the side that the ray came from.
     pub(crate) fn mirrored(&self) -> Ray {
-        Ray { origin: self.origin_back(), direction: self.kept_on(Side::Front, reflect(self.direction, self.normal())) }
+        self.ray_back(reflect(self.direction, self.normal()))
+    }
+
+    /// A ray from here on the side that the ray came from, in this direction or, where that would come out behind, its
+    /// mirror image.
+    pub(crate) fn ray_back(&self, direction: DVec3) -> Ray {
+        Ray { origin: self.origin_back(), direction: self.kept_on(Side::Front, direction) }
+    }
+
+    /// True if a direction leads to the side of the surface that the ray did not come from.
+    pub(crate) fn is_on_far_side(&self, direction: DVec3) -> bool {
+        direction.dot(self.face) < 0.0
     }
 
     /// A ray from here on the far side, in this direction or, where that would come back, its mirror image.

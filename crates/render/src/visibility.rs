@@ -3,7 +3,7 @@
 use crate::compile::{CLEAR, CompiledScene, OPAQUE};
 use crate::media::Media;
 use crate::shading::opacity_at;
-use durer_geometry::{Hit, Primitive, Ray, Surface};
+use durer_geometry::{Hit, Primitive, Ray, Surface, Vantage};
 use durer_math::Rgb;
 
 /// A light that lies in a surface to the last bits is not hidden by it: shadow rays end this much, relatively, before
@@ -16,13 +16,19 @@ pub(crate) const MOST_SURFACES: u32 = 100_000;
 /// What is left of light on the way along `ray` over `distance`: nothing behind something opaque; else the product of
 /// what all clear surfaces let pass and of what media take away. `media` are those around the ray's origin.
 ///
-/// The ray must be aimed at the light with the index `light`. It goes straight, also through what would bend it.
+/// If there is a vantage, the ray must be aimed at its point. It goes straight, also through what would bend it.
 #[inline]
-pub(crate) fn visibility(scene: &CompiledScene, media: &Media, ray: &Ray, distance: f64, light: usize) -> Rgb {
+pub(crate) fn visibility(
+    scene: &CompiledScene,
+    media: &Media,
+    ray: &Ray,
+    distance: f64,
+    light: Option<&Vantage>,
+) -> Rgb {
     let reach = distance * SHORT_OF_LIGHT;
     let mut left = Rgb::WHITE;
     let mut clear = false;
-    let dark = scene.world.any_hit(ray, reach, scene.light_vantages[light].as_ref(), |id, primitive| {
+    let dark = scene.world.any_hit(ray, reach, light, |id, primitive| {
         if primitive.mask & OPAQUE != 0 {
             return true;
         }

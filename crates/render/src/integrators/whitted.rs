@@ -10,6 +10,7 @@ use crate::holes::{Known, meet};
 use crate::materials::refract;
 use crate::media::{Media, Undo};
 use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Source, SurfaceSeen};
+use crate::sampler::Sampler;
 use crate::shading::{Shading, highlight};
 use crate::visibility::visibility;
 use durer_geometry::Ray;
@@ -19,7 +20,14 @@ use durer_math::{DVec3, Rgb};
 pub(crate) struct Whitted;
 
 impl Integrator for Whitted {
-    fn radiance<O: Observer>(&self, scene: &CompiledScene, ray: &Ray, known: Known<'_>, observer: &mut O) -> Rgb {
+    fn radiance<O: Observer>(
+        &self,
+        scene: &CompiledScene,
+        ray: &Ray,
+        known: Known<'_>,
+        _: &Sampler,
+        observer: &mut O,
+    ) -> Rgb {
         let media = if scene.media_at_eye.is_empty() { Media::default() } else { Media::around(scene, ray) };
         let mut path = Path { scene, media, sum: Rgb::BLACK, observer };
         path.trace(RayKind::Eye, 1, ray, Rgb::WHITE, known);
@@ -110,7 +118,13 @@ impl<O: Observer> Path<'_, O> {
             if cosine > 0.0 {
                 self.observer.shadow_ray();
                 let ray = Ray { origin: point, direction: arriving.direction };
-                visible = visibility(self.scene, &self.media, &ray, arriving.distance, index);
+                visible = visibility(
+                    self.scene,
+                    &self.media,
+                    &ray,
+                    arriving.distance,
+                    self.scene.light_vantages[index].as_ref(),
+                );
             }
             let distance = Some(arriving.distance);
             self.observer.light(&LightSeen { index, distance, cosine, visibility: visible });

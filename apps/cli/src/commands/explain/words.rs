@@ -31,6 +31,7 @@ pub(super) fn source(source: Source) -> &'static str {
         Source::Ambient => "ambient light",
         Source::Diffuse(_) => "diffuse",
         Source::Specular(_) => "highlight",
+        Source::Light(_) => "light that was aimed at",
     }
 }
 
@@ -43,6 +44,7 @@ pub(super) fn source_key(source: Source) -> &'static str {
         Source::Ambient => "ambient",
         Source::Diffuse(_) => "diffuse",
         Source::Specular(_) => "specular",
+        Source::Light(_) => "light",
     }
 }
 
@@ -50,6 +52,7 @@ pub(super) fn source_key(source: Source) -> &'static str {
 pub(super) fn light_of(source: Source) -> Option<usize> {
     match source {
         Source::Diffuse(light) | Source::Specular(light) => Some(light),
+        Source::Light(light) => light,
         Source::Fog | Source::Background | Source::Emission | Source::Ambient => None,
     }
 }

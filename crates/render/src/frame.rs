@@ -1,0 +1,29 @@
+//! Orthonormal frames: scattering is computed where the normal is the z axis.
+
+use durer_math::{DVec3, any_orthonormal_pair};
+
+/// A right-handed orthonormal frame around a shading normal.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frame {
+    x: DVec3,
+    y: DVec3,
+    z: DVec3,
+}
+
+impl Frame {
+    /// One whose z axis is this unit vector.
+    pub(crate) fn around(z: DVec3) -> Frame {
+        let (x, y) = any_orthonormal_pair(z);
+        Frame { x, y, z }
+    }
+
+    /// From the world to the frame.
+    pub(crate) fn to_local(self, v: DVec3) -> DVec3 {
+        DVec3::new(v.dot(self.x), v.dot(self.y), v.dot(self.z))
+    }
+
+    /// From the frame to the world.
+    pub(crate) fn to_world(self, v: DVec3) -> DVec3 {
+        self.x * v.x + self.y * v.y + self.z * v.z
+    }
+}

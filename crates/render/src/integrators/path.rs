@@ -1,0 +1,397 @@
+//! Path tracing: the light that really arrives along a ray, estimated.
+//!
+//! One path is followed from the eye. Where it meets a surface, light is looked for in two ways: by aiming at an emitter,
+//! and by going on in a direction that the surface likes and meeting an emitter there. Each finds some light better than the
+//! other; the power heuristic weighs them (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, §9).
+//! Paths of little weight end by Russian roulette.
+//!
+//! As with the classic integrator, a sample is one sum of contributions that carry their full weight.
+
+use super::Integrator;
+use crate::bsdf::{Bsdf, How};
+use crate::compile::CompiledScene;
+use crate::emitters::Receiver;
+use crate::frame::Frame;
+use crate::holes::{Known, meet};
+use crate::media::Media;
+use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Scattering, Source, SurfaceSeen, Weighing};
+use crate::sampler::{Purpose, Sampler};
+use crate::shading::Shading;
+use crate::visibility::{MOST_SURFACES, visibility};
+use durer_geometry::Ray;
+use durer_math::Rgb;
+
+/// The path tracer.
+pub(crate) struct PathTracer {
+    /// The most segments of a path, from the eye to a light.
+    pub(crate) max_depth: u32,
+    /// The most that one contribution of light which came by more than one surface may bring (its largest component).
+    pub(crate) clamp: Option<f32>,
+}
+
+/// Russian roulette begins with segments of this number.
+const FIRST_ROULETTE: u32 = 4;
+/// No path goes on with a greater chance than this: between perfect mirrors it would not end.
+const MOST_LIKELY: f32 = 0.99;
+
+impl Integrator for PathTracer {
+    fn radiance<O: Observer>(
+        &self,
+        scene: &CompiledScene,
+        ray: &Ray,
+        known: Known<'_>,
+        sampler: &Sampler,
+        observer: &mut O,
+    ) -> Rgb {
+        let media = if scene.media_at_eye.is_empty() { Media::default() } else { Media::around(scene, ray) };
+        let state = State { kind: RayKind::Eye, ray: *ray, depth: 1, met: 0, weight: Rgb::WHITE, aimed: None };
+        let mut path = Path { tracer: self, scene, sampler, media, state, sum: Rgb::BLACK, observer };
+        path.follow(known);
+        path.sum
+    }
+}
+
+/// A path as far as it goes.
+struct Path<'a, O> {
+    tracer: &'a PathTracer,
+    scene: &'a CompiledScene,
+    sampler: &'a Sampler,
+    /// Around the origin of its last segment.
+    media: Media,
+    state: State,
+    sum: Rgb,
+    observer: &'a mut O,
+}
+
+/// The last segment of a path.
+#[derive(Clone, Copy)]
+struct State {
+    kind: RayKind,
+    ray: Ray,
+    depth: u32,
+    /// Surfaces met before it, those that it passed straight through, too.
+    met: u32,
+    /// What light at its start counts in the sample.
+    weight: Rgb,
+    /// How it was found, if light could have been aimed at instead.
+    aimed: Option<Aimed>,
+}
+
+/// How a direction was found that aiming at lights might have found as well.
+#[derive(Clone, Copy)]
+struct Aimed {
+    receiver: Receiver,
+    /// Density of the direction, by the surface.
+    pdf: f64,
+}
+
+impl<O: Observer> Path<'_, O> {
+    fn follow(&mut self, known: Known<'_>) {
+        let mut known = known;
+        let mut segments = 0;
+        for _ in 0..MOST_SURFACES {
+            segments += 1;
+            let State { kind, depth, ray, weight, .. } = self.state;
+            self.observer.ray_begins(kind, depth, &ray, weight);
+            if !self.advance(known) {
+                break;
+            }
+            known = Known::Nothing;
+            self.state.met += 1;
+        }
+        (0..segments).for_each(|_| self.observer.ray_ends());
+    }
+
+    /// Goes to what the last segment meets, and finds the next segment; false if there is none.
+    fn advance(&mut self, known: Known<'_>) -> bool {
+        let scene = self.scene;
+        let met = meet(scene, &self.state.ray, known, self.observer);
+        self.along(met.length);
+        let Some(hit) = met.hit else {
+            let direction = met.ray.direction;
+            let seen = scene.background.seen(direction);
+            if !seen.is_black() {
+                let density = |receiver: &Receiver| scene.emitters.pdf_of_background(scene, receiver, direction);
+                let part = self.part_of_found(density);
+                self.add(Source::Background, seen * part);
+            }
+            return false;
+        };
+        let shading = Shading::at(scene, &met.ray, &hit);
+        let Shading { surface, color, opacity, from_outside, .. } = shading;
+        let (length, normal) = (met.length, shading.normal());
+        self.observer.surface(&SurfaceSeen { hit, length, surface, normal, color, opacity, from_outside });
+        if let Some(opacity) = opacity {
+            // One of the two: the surface, or the way past it.
+            let there = opacity.to_array().iter().sum::<f32>() / 3.0;
+            if self.sampler.one(self.step(), Purpose::Opacity) >= f64::from(there) {
+                self.state.weight *= (Rgb::WHITE - opacity) * (1.0 / (1.0 - there));
+                self.pass(&shading, shading.bounds_medium && !shading.from_outside);
+                return true;
+            }
+            self.state.weight *= opacity * (1.0 / there);
+        }
+        let emission = shading.emission;
+        if !emission.is_black() {
+            let density =
+                |receiver: &Receiver| scene.emitters.pdf_of_hit(scene, receiver, &met.ray, &hit, &surface, met.length);
+            let part = self.part_of_found(density);
+            self.add(Source::Emission, emission * part);
+        }
+        if self.state.depth >= self.tracer.max_depth {
+            self.observer.not_traced(RayKind::Reflected, self.state.weight, NotTraced::TooDeep);
+            return false;
+        }
+        self.scatter(&shading)
+    }
+
+    /// Light that the surface gives back, and the next segment.
+    fn scatter(&mut self, shading: &Shading<'_>) -> bool {
+        let frame = Frame::around(shading.normal());
+        let out = frame.to_local(-shading.direction);
+        let bsdf = Bsdf::diffuse(shading.color * shading.material.diffuse);
+        let receiver = Receiver { point: shading.origin_back(), normal: shading.normal() };
+        let step = self.step();
+        if !bsdf.is_specular() {
+            self.aim(shading, &frame, &bsdf, &receiver);
+        }
+        let lobe = self.sampler.one(step, Purpose::Lobe);
+        let Some(scattered) = bsdf.sample(out, lobe, self.sampler.two(step, Purpose::Direction)) else {
+            return false;
+        };
+        self.state.weight *= scattered.weight;
+        let passes = scattered.direction.z < 0.0;
+        let direction = frame.to_world(scattered.direction).normalize();
+        let pdf = if let How::Spread { pdf } = scattered.how { Some(pdf) } else { None };
+        let survival = self.survival();
+        self.observer.scattering(&Scattering { direction, pdf, weight: scattered.weight, survival });
+        if !self.survives(survival) {
+            return false;
+        }
+        match scattered.how {
+            How::Straight => {
+                self.pass(shading, shading.bounds_medium);
+                return true;
+            }
+            How::Spread { pdf } => {
+                if shading.is_on_far_side(direction) != passes {
+                    return false;
+                }
+                self.state.aimed = Some(Aimed { receiver, pdf });
+            }
+            How::Only => self.state.aimed = None,
+        }
+        self.state.depth += 1;
+        if passes {
+            if shading.bounds_medium {
+                let _ = self.media.cross(shading.primitive, shading.from_outside);
+            }
+            (self.state.kind, self.state.ray) = (RayKind::Transmitted, shading.ray_on(direction));
+        } else {
+            (self.state.kind, self.state.ray) = (RayKind::Reflected, shading.ray_back(direction));
+        }
+        true
+    }
+
+    /// Looks for light by aiming at an emitter.
+    fn aim(&mut self, shading: &Shading<'_>, frame: &Frame, bsdf: &Bsdf, receiver: &Receiver) {
+        let (scene, step) = (self.scene, self.step());
+        let choice = self.sampler.one(step, Purpose::Light);
+        let at = self.sampler.two(step, Purpose::LightPoint);
+        let Some(light) = scene.emitters.sample(scene, receiver, choice, at) else { return };
+        let toward = frame.to_local(light.direction);
+        let (scattered, pdf) = bsdf.evaluate(frame.to_local(-shading.direction), toward);
+        let mut visible = Rgb::BLACK;
+        let passes = toward.z < 0.0;
+        if !scattered.is_black() && shading.is_on_far_side(light.direction) == passes {
+            self.observer.shadow_ray();
+            let ray = if passes { shading.ray_on(light.direction) } else { shading.ray_back(light.direction) };
+            let vantage = light.lamp.and_then(|index| scene.light_vantages[index].as_ref());
+            visible = if passes && shading.bounds_medium {
+                let mut media = self.media.clone();
+                let _ = media.cross(shading.primitive, shading.from_outside);
+                visibility(scene, &media, &ray, light.distance, vantage)
+            } else {
+                visibility(scene, &self.media, &ray, light.distance, vantage)
+            };
+        }
+        if let Some(index) = light.lamp {
+            let distance = Some(light.distance);
+            self.observer.light(&LightSeen { index, distance, cosine: toward.z, visibility: visible });
+        }
+        if !visible.is_black() {
+            let part = if light.is_point { 1.0 } else { power_heuristic(light.pdf, pdf) };
+            let by_aiming = if light.is_point { f64::INFINITY } else { light.pdf };
+            self.observer.weighing(&Weighing { by_surface: pdf, by_aiming, part });
+            let arriving = light.light * visible * ((part / light.pdf) as f32);
+            self.add(Source::Light(light.lamp), scattered * arriving);
+        }
+    }
+
+    /// What light counts that the last segment has found, if by aiming it is found with this density from a receiver.
+    fn part_of_found(&mut self, density: impl FnOnce(&Receiver) -> f64) -> f32 {
+        let Some(Aimed { receiver, pdf }) = self.state.aimed else { return 1.0 };
+        let by_aiming = density(&receiver);
+        let part = power_heuristic(pdf, by_aiming);
+        self.observer.weighing(&Weighing { by_surface: pdf, by_aiming, part });
+        part as f32
+    }
+
+    /// Goes on straight, as if there were no surface. It stays the same segment of the path, for light that was aimed at
+    /// comes through here, too. (No medium begins where a surface is not, but one that the ray is in ends.)
+    fn pass(&mut self, shading: &Shading<'_>, crosses: bool) {
+        if crosses {
+            let _ = self.media.cross(shading.primitive, shading.from_outside);
+        }
+        (self.state.kind, self.state.ray) = (RayKind::Transmitted, shading.ray_on(shading.direction));
+    }
+
+    /// The chance of a path of this weight to go on.
+    fn survival(&self) -> f32 {
+        let weight = self.state.weight.max_component();
+        match self.state.depth {
+            depth if depth < FIRST_ROULETTE && weight > 0.0 => 1.0,
+            _ => weight.min(MOST_LIKELY),
+        }
+    }
+
+    /// Russian roulette: paths that count little end, others count the more.
+    fn survives(&mut self, chance: f32) -> bool {
+        if chance == 1.0 {
+            return true;
+        }
+        if self.sampler.one(self.step(), Purpose::Roulette) >= f64::from(chance) {
+            self.observer.not_traced(RayKind::Reflected, self.state.weight, NotTraced::TooFaint);
+            return false;
+        }
+        self.state.weight = self.state.weight * (1.0 / chance);
+        true
+    }
+
+    /// What the segment does to the light that comes along it.
+    fn along(&mut self, length: f64) {
+        if let Some(fog) = &self.scene.fog {
+            let veil = fog.veil(length);
+            self.add(Source::Fog, veil.color * (1.0 - veil.visible));
+            self.state.weight = self.state.weight * veil.visible;
+        }
+        if self.scene.attenuates {
+            self.state.weight *= self.media.transmittance(self.scene, length);
+        }
+    }
+
+    /// Adds light that arrives at the start of the last segment.
+    fn add(&mut self, source: Source, light: Rgb) {
+        let mut amount = self.state.weight * light;
+        if let (Some(most), true) = (self.tracer.clamp, self.state.depth > 1) {
+            let largest = amount.max_component();
+            if largest > most {
+                amount = amount * (most / largest);
+            }
+        }
+        self.sum += amount;
+        self.observer.contribution(source, amount);
+    }
+
+    /// The number under which the sampler knows what the last segment meets.
+    fn step(&self) -> u32 {
+        self.state.met + 1
+    }
+}
+
+/// The part of light that the first of two ways counts, if they find it with these densities. Veach 1997, eq. 9.13.
+fn power_heuristic(first: f64, second: f64) -> f64 {
+    if first.is_infinite() {
+        return 1.0;
+    }
+    let ratio = second / first;
+    1.0 / (1.0 + ratio * ratio)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compile::compile;
+    use durer_scene::{
+        Background, Emission, Light, LightKind, Material, MaterialKind, Matte, Object, ObjectKind, Paint, Scene, Shape,
+        Strength,
+    };
+
+    fn matte(color: Rgb) -> Material {
+        Material::of(MaterialKind::Matte(Matte { color: Paint::Color(color), ..Matte::default() }))
+    }
+
+    fn mean(scene: &CompiledScene, samples: u32) -> Rgb {
+        let tracer = PathTracer { max_depth: 1000, clamp: None };
+        let ray = scene.camera.ray(durer_math::DVec2::new(320.0, 240.0));
+        let estimates = (0..samples).map(|index| {
+            let sampler = Sampler::new(0, (0, 0), index);
+            tracer.radiance(scene, &ray, Known::Nothing, &sampler, &mut crate::observer::RayCounts::default())
+        });
+        estimates.fold(Rgb::BLACK, |sum, estimate| sum + estimate) * (1.0 / samples as f32)
+    }
+
+    /// From inside of a ball that gives off light L and gives back the part ρ, L/(1 - ρ) is seen everywhere.
+    #[test]
+    fn a_furnace_glows_as_its_series_says() {
+        let color = Rgb::new(0.2, 0.5, 0.8);
+        let material = Material { emission: Emission::of(Rgb::WHITE), ..matte(color) };
+        let ball = Object {
+            material: Some(durer_scene::MaterialId(0)),
+            ..Object::new(ObjectKind::Shape(Shape::Sphere { center: durer_math::DVec3::ZERO, radius: 3.0 }))
+        };
+        let scene = Scene {
+            materials: vec![material],
+            objects: vec![ball],
+            camera: Some(Default::default()),
+            lights: Vec::new(),
+            ..Scene::default()
+        };
+        let found = mean(&compile(&scene.check().unwrap()), 4096);
+        for (found, albedo) in found.to_array().into_iter().zip(color.to_array()) {
+            let expected = 1.0 / (1.0 - albedo);
+            assert!((found / expected - 1.0).abs() < 0.03, "{found}, not {expected}");
+        }
+    }
+
+    /// Under a white sky a convex white body looks white.
+    #[test]
+    fn a_white_ball_vanishes_in_a_white_sky() {
+        let material = matte(Rgb::WHITE);
+        let ball = Object {
+            material: Some(durer_scene::MaterialId(0)),
+            ..Object::new(ObjectKind::Shape(Shape::Sphere { center: durer_math::DVec3::NEG_Z * 5.0, radius: 1.0 }))
+        };
+        let background = Background::Color(Rgb::WHITE);
+        let scene = Scene {
+            materials: vec![material],
+            objects: vec![ball],
+            background,
+            camera: Some(Default::default()),
+            lights: Vec::new(),
+            ..Scene::default()
+        };
+        let found = mean(&compile(&scene.check().unwrap()), 64);
+        assert!((found - Rgb::WHITE).map(f32::abs).max_component() < 1e-5, "{found:?}");
+    }
+
+    /// A lamp gives a matte surface that faces it the radiance that the classic integrator gives it.
+    #[test]
+    fn lamps_are_as_bright_as_classic_ones() {
+        let kind = LightKind::Directional { direction: durer_math::DVec3::NEG_Z };
+        let lamp = Light { name: None, color: Rgb::WHITE, strength: Strength::Classic(0.5), kind };
+        let (point, normal) = (durer_math::DVec3::NEG_Z * 5.0, durer_math::DVec3::Z);
+        let wall = Object::new(ObjectKind::Shape(Shape::Plane { point, normal }));
+        let background = Background::Color(Rgb::BLACK);
+        let scene = Scene {
+            objects: vec![wall],
+            background,
+            camera: Some(Default::default()),
+            lights: vec![lamp],
+            ..Scene::default()
+        };
+        let found = mean(&compile(&scene.check().unwrap()), 4);
+        // Default color 0.8, of which 0.8 is given back.
+        assert!((found - Rgb::gray(0.32)).map(f32::abs).max_component() < 1e-6, "{found:?}");
+    }
+}
