@@ -43,7 +43,7 @@ impl Cuboid {
         let weights = if solid_angles.iter().sum::<f64>() > SMALL {
             solid_angles
         } else {
-            seen.map(|face| face.map_or(0.0, |face| face.from_far_away()))
+            seen.map(|face| face.map_or(0.0, |face| face.weight_from_afar()))
         };
         let all: f64 = weights.iter().sum();
         Faces { seen, weights: weights.map(|weight| if all > 0.0 { weight / all } else { 0.0 }) }

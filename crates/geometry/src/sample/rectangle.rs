@@ -41,7 +41,7 @@ impl Seen {
     }
 
     /// What it weighs from so far away that all its points are seen alike.
-    pub(super) fn from_far_away(&self) -> f64 {
+    pub(super) fn weight_from_afar(&self) -> f64 {
         self.area() * self.height
     }
 
