@@ -150,7 +150,7 @@ impl<O: Observer> Path<'_, O> {
         let frame = Frame::around(shading.normal());
         let out = frame.to_local(-shading.direction);
         let bsdf = Bsdf::diffuse(shading.color * shading.material.diffuse);
-        let receiver = Receiver { point: shading.origin_back(), normal: shading.normal() };
+        let receiver = Receiver { point: shading.origin_back(), normal: shading.normal(), passes: false };
         let step = self.step();
         if !bsdf.is_specular() {
             self.aim(shading, &frame, &bsdf, &receiver);
@@ -313,8 +313,8 @@ mod tests {
     use super::*;
     use crate::compile::compile;
     use durer_scene::{
-        Background, Classic, Emission, Light, LightKind, Material, MaterialKind, Object, ObjectKind, Paint, Scene, Shape,
-        Strength,
+        Background, Classic, Emission, Light, LightKind, Material, MaterialKind, Object, ObjectKind, Paint, Scene,
+        Shape, Strength,
     };
 
     fn white(color: Paint) -> Material {
@@ -335,8 +335,7 @@ mod tests {
     #[test]
     fn a_furnace_glows_as_its_series_says() {
         let color = Rgb::new(0.2, 0.5, 0.8);
-        let material =
-            Material { emission: Emission::of(Rgb::WHITE), ..white(Paint::Color(color)) };
+        let material = Material { emission: Emission::of(Rgb::WHITE), ..white(Paint::Color(color)) };
         let ball = Object {
             material: Some(durer_scene::MaterialId(0)),
             ..Object::new(ObjectKind::Shape(Shape::Sphere { center: durer_math::DVec3::ZERO, radius: 3.0 }))
