@@ -114,7 +114,7 @@ mod tests {
     fn points_are_uniform() {
         // Each blade gets as many columns of the lattice.
         const N: u32 = 576;
-        for blades in [0, 3, 4, 6, 9, 64] {
+        for blades in [0, 3, 4, 6, 9] {
             let lens = lens(blades, 0.3);
             let expected = if blades == 0 { 0.5 } else { (2.0 + cos(TAU / f64::from(blades))) / 6.0 };
             let points: Vec<DVec3> = lattice(N).map(|square| lens.point(square)).collect();
