@@ -44,5 +44,5 @@ pub use explain::{
 pub use film::{BadSample, Film, FilmParts, Region};
 pub use heatmap::{HeatMap, heatmap};
 pub use memory::memory_needed;
-pub use observer::{NotTraced, RayCounts, RayKind, Source};
+pub use observer::{NotTraced, RayCounts, RayKind, Scattering, Source, Weighing};
 pub use schedule::{Progress, RenderError, RenderOptions, render, render_on, with_threads};

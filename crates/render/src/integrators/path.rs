@@ -15,7 +15,7 @@ use crate::emitters::Receiver;
 use crate::frame::Frame;
 use crate::holes::{Known, meet};
 use crate::media::Media;
-use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Source, SurfaceSeen};
+use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Scattering, Source, SurfaceSeen, Weighing};
 use crate::sampler::{Purpose, Sampler};
 use crate::shading::Shading;
 use crate::visibility::{MOST_SURFACES, visibility};
@@ -110,9 +110,12 @@ impl<O: Observer> Path<'_, O> {
         self.along(met.length);
         let Some(hit) = met.hit else {
             let direction = met.ray.direction;
-            let by_aiming = |aimed: &Aimed| scene.emitters.pdf_of_background(scene, &aimed.receiver, direction);
-            let part = self.state.aimed.map_or(1.0, |aimed| power_heuristic(aimed.pdf, by_aiming(&aimed)));
-            self.add(Source::Background, background(&scene.background, direction) * part as f32);
+            let seen = background(&scene.background, direction);
+            if !seen.is_black() {
+                let density = |receiver: &Receiver| scene.emitters.pdf_of_background(scene, receiver, direction);
+                let part = self.part_of_found(density);
+                self.add(Source::Background, seen * part);
+            }
             return false;
         };
         let shading = Shading::at(scene, &met.ray, &hit);
@@ -131,10 +134,10 @@ impl<O: Observer> Path<'_, O> {
         }
         let emission = shading.material.emission;
         if !emission.is_black() {
-            let by_aiming =
-                |aimed: &Aimed| scene.emitters.pdf_of_hit(scene, &aimed.receiver, &met.ray, &hit, &surface, met.length);
-            let part = self.state.aimed.map_or(1.0, |aimed| power_heuristic(aimed.pdf, by_aiming(&aimed)));
-            self.add(Source::Emission, emission * part as f32);
+            let density =
+                |receiver: &Receiver| scene.emitters.pdf_of_hit(scene, receiver, &met.ray, &hit, &surface, met.length);
+            let part = self.part_of_found(density);
+            self.add(Source::Emission, emission * part);
         }
         if self.state.depth >= self.tracer.max_depth {
             self.observer.not_traced(RayKind::Reflected, self.state.weight, NotTraced::TooDeep);
@@ -158,11 +161,14 @@ impl<O: Observer> Path<'_, O> {
             return false;
         };
         self.state.weight *= scattered.weight;
-        if self.state.weight.is_black() || !self.survives() {
-            return false;
-        }
         let passes = scattered.direction.z < 0.0;
         let direction = frame.to_world(scattered.direction).normalize();
+        let pdf = if let How::Spread { pdf } = scattered.how { Some(pdf) } else { None };
+        let survival = self.survival();
+        self.observer.scattering(&Scattering { direction, pdf, weight: scattered.weight, survival });
+        if !self.survives(survival) {
+            return false;
+        }
         match scattered.how {
             How::Straight => {
                 self.pass(shading, shading.bounds_medium);
@@ -216,9 +222,20 @@ impl<O: Observer> Path<'_, O> {
         }
         if !visible.is_black() {
             let part = if light.is_point { 1.0 } else { power_heuristic(light.pdf, pdf) };
+            let by_aiming = if light.is_point { f64::INFINITY } else { light.pdf };
+            self.observer.weighing(&Weighing { by_surface: pdf, by_aiming, part });
             let arriving = light.light * visible * ((part / light.pdf) as f32);
             self.add(Source::Light(light.lamp), scattered * arriving);
         }
+    }
+
+    /// What light counts that the last segment has found, if by aiming it is found with this density from a receiver.
+    fn part_of_found(&mut self, density: impl FnOnce(&Receiver) -> f64) -> f32 {
+        let Some(Aimed { receiver, pdf }) = self.state.aimed else { return 1.0 };
+        let by_aiming = density(&receiver);
+        let part = power_heuristic(pdf, by_aiming);
+        self.observer.weighing(&Weighing { by_surface: pdf, by_aiming, part });
+        part as f32
     }
 
     /// Goes on straight, as if there were no surface. It stays the same segment of the path, for light that was aimed at
@@ -230,12 +247,20 @@ impl<O: Observer> Path<'_, O> {
         (self.state.kind, self.state.ray) = (RayKind::Transmitted, shading.ray_on(shading.direction));
     }
 
+    /// The chance of a path of this weight to go on.
+    fn survival(&self) -> f32 {
+        let weight = self.state.weight.max_component();
+        match self.state.depth {
+            depth if depth < FIRST_ROULETTE && weight > 0.0 => 1.0,
+            _ => weight.min(MOST_LIKELY),
+        }
+    }
+
     /// Russian roulette: paths that count little end, others count the more.
-    fn survives(&mut self) -> bool {
-        if self.state.depth < FIRST_ROULETTE {
+    fn survives(&mut self, chance: f32) -> bool {
+        if chance == 1.0 {
             return true;
         }
-        let chance = self.state.weight.max_component().min(MOST_LIKELY);
         if self.sampler.one(self.step(), Purpose::Roulette) >= f64::from(chance) {
             self.observer.not_traced(RayKind::Reflected, self.state.weight, NotTraced::TooFaint);
             return false;
