@@ -175,6 +175,7 @@ fn frame(bounds: Bounds, aspect: f64) -> scene::Camera {
         look_at: center,
         up: DVec3::Y,
         projection: scene::Projection::FieldOfView { degrees },
+        lens: None,
     }
 }
 

@@ -34,6 +34,7 @@ mod schedule;
 mod shading;
 mod textures;
 mod visibility;
+mod whitted_reading;
 
 pub use compile::{CompiledScene, GeometryMemory, compile, compile_for};
 pub use durer_geometry::{Bounds, SimdLevel};
