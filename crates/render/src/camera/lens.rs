@@ -58,7 +58,7 @@ impl Lens {
 
 /// Points of the unit square to the unit disc: squares about the middle become circles, so that what lies side by side stays
 /// so. Shirley and Chiu, "A Low Distortion Map Between Disk and Square", 1997.
-fn concentric_disc(square: DVec2) -> DVec2 {
+pub(crate) fn concentric_disc(square: DVec2) -> DVec2 {
     let at = square * 2.0 - DVec2::ONE;
     if at == DVec2::ZERO {
         return at;
