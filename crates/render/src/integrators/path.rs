@@ -8,7 +8,6 @@
 //! As with the classic integrator, a sample is one sum of contributions that carry their full weight.
 
 use super::Integrator;
-use crate::background::background;
 use crate::bsdf::{Bsdf, How};
 use crate::compile::CompiledScene;
 use crate::emitters::Receiver;
@@ -110,7 +109,7 @@ impl<O: Observer> Path<'_, O> {
         self.along(met.length);
         let Some(hit) = met.hit else {
             let direction = met.ray.direction;
-            let seen = background(&scene.background, direction);
+            let seen = scene.background.seen(direction);
             if !seen.is_black() {
                 let density = |receiver: &Receiver| scene.emitters.pdf_of_background(scene, receiver, direction);
                 let part = self.part_of_found(density);
@@ -132,7 +131,7 @@ impl<O: Observer> Path<'_, O> {
             }
             self.state.weight *= opacity * (1.0 / there);
         }
-        let emission = shading.material.emission;
+        let emission = shading.emission;
         if !emission.is_black() {
             let density =
                 |receiver: &Receiver| scene.emitters.pdf_of_hit(scene, receiver, &met.ray, &hit, &surface, met.length);
@@ -313,7 +312,14 @@ fn power_heuristic(first: f64, second: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::compile::compile;
-    use durer_scene::{Background, Light, LightKind, Material, Object, ObjectKind, Paint, Scene, Shape};
+    use durer_scene::{
+        Background, Emission, Light, LightKind, Material, MaterialKind, Matte, Object, ObjectKind, Paint, Scene, Shape,
+        Strength,
+    };
+
+    fn matte(color: Rgb) -> Material {
+        Material::of(MaterialKind::Matte(Matte { color: Paint::Color(color), ..Matte::default() }))
+    }
 
     fn mean(scene: &CompiledScene, samples: u32) -> Rgb {
         let tracer = PathTracer { max_depth: 1000, clamp: None };
@@ -329,8 +335,7 @@ mod tests {
     #[test]
     fn a_furnace_glows_as_its_series_says() {
         let color = Rgb::new(0.2, 0.5, 0.8);
-        let material =
-            Material { color: Paint::Color(color), diffuse: 1.0, emission: Rgb::gray(1.0), ..Material::default() };
+        let material = Material { emission: Emission::of(Rgb::WHITE), ..matte(color) };
         let ball = Object {
             material: Some(durer_scene::MaterialId(0)),
             ..Object::new(ObjectKind::Shape(Shape::Sphere { center: durer_math::DVec3::ZERO, radius: 3.0 }))
@@ -352,7 +357,7 @@ mod tests {
     /// Under a white sky a convex white body looks white.
     #[test]
     fn a_white_ball_vanishes_in_a_white_sky() {
-        let material = Material { color: Paint::Color(Rgb::WHITE), diffuse: 1.0, ..Material::default() };
+        let material = matte(Rgb::WHITE);
         let ball = Object {
             material: Some(durer_scene::MaterialId(0)),
             ..Object::new(ObjectKind::Shape(Shape::Sphere { center: durer_math::DVec3::NEG_Z * 5.0, radius: 1.0 }))
@@ -374,7 +379,7 @@ mod tests {
     #[test]
     fn lamps_are_as_bright_as_classic_ones() {
         let kind = LightKind::Directional { direction: durer_math::DVec3::NEG_Z };
-        let lamp = Light { name: None, color: Rgb::WHITE, intensity: 0.5, kind };
+        let lamp = Light { name: None, color: Rgb::WHITE, strength: Strength::Classic(0.5), kind };
         let (point, normal) = (durer_math::DVec3::NEG_Z * 5.0, durer_math::DVec3::Z);
         let wall = Object::new(ObjectKind::Shape(Shape::Plane { point, normal }));
         let background = Background::Color(Rgb::BLACK);
