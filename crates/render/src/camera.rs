@@ -52,9 +52,11 @@ impl Camera {
             up: up * half_height,
             parallel,
             scale: DVec2::new(2.0 / f64::from(width), 2.0 / f64::from(height)),
-            lens: camera.lens.zip(camera.focus_distance()).filter(|(lens, _)| lens.radius > 0.0).map(|(lens, focus)| {
-                Lens::new((right, up), lens.radius, focus, lens.blades, lens.rotation_degrees.to_radians())
-            }),
+            lens: camera.lens.zip(camera.focus_distance()).filter(|(lens, _)| lens.radius > 0.0).map(
+                |(lens, focus)| {
+                    Lens::new((right, up), lens.radius, focus, lens.blades, lens.rotation_degrees.to_radians())
+                },
+            ),
         }
     }
 

@@ -5,6 +5,7 @@ pub(crate) mod depth;
 pub(crate) mod first_surface;
 pub(crate) mod normals;
 pub(crate) mod path;
+pub(crate) mod sharp;
 pub(crate) mod uv;
 pub(crate) mod whitted;
 
