@@ -49,7 +49,7 @@ fn a_disc_above() {
 #[test]
 fn a_ball_above_and_aside() {
     // The part of its solid angle's projection: sin² of its half-angle times the cosine towards its middle.
-    for (center, r) in [([0.0, 2.0, 0.0], 1.0), ([0.0, 10.0, 0.0], 0.1), ([3.0, 4.0, 0.0], 2.0_f64)] {
+    for (center, r) in [([0.0_f64, 2.0, 0.0], 1.0), ([0.0, 10.0, 0.0], 0.1), ([3.0, 4.0, 0.0], 2.0_f64)] {
         let [x, y, z] = center;
         let light = format!(
             "sphere: {{center: [{x}, {y}, {z}], radius: {r}, material: {{matte: {{color: black, emission: 3}}}}}}"
