@@ -8,8 +8,9 @@ use crate::compile::CompiledScene;
 use crate::eye::SceneEye;
 use crate::film::{Account, Film, Region, SampleRange, Tile};
 use crate::first_hits::FirstHits;
+use crate::integrators::ambient_occlusion::AmbientOcclusion;
 use crate::integrators::path::PathTracer;
-use crate::integrators::whitted::Whitted;
+use crate::integrators::sharp::Sharp;
 use crate::memory::rows_at_a_time;
 use crate::passes::{Goal, render_samples};
 use crate::pixel::render_pixel;
@@ -166,7 +167,15 @@ fn take_samples(scene: &CompiledScene, goal: Goal, film: &mut Film, progress: &d
         Integrator::Path { max_depth, clamp } => {
             render_samples((scene, &PathTracer { max_depth, clamp }), goal, film, progress);
         }
-        Integrator::AmbientOcclusion { .. } => {}
+        Integrator::AmbientOcclusion { distance } => {
+            render_samples(
+                (scene, &AmbientOcclusion { distance: distance.unwrap_or(f64::INFINITY) }),
+                goal,
+                film,
+                progress,
+            );
+        }
+        // They look where anti-aliasing says.
         Integrator::Whitted | Integrator::Normals | Integrator::Depth | Integrator::Uv => {}
     }
 }
@@ -240,7 +249,7 @@ impl WithAntialias for RenderAll<'_> {
         let RenderAll { scene, film, progress } = self;
         let mut reconstruction = Reconstruction::new(rows, filter, film.region(), scene.picture_size());
         let stop = || progress.stop();
-        let eye = SceneEye { scene, stop: &stop };
+        let eye = SceneEye::until(scene, &stop);
         let at_a_time = rows_at_a_time(&scene.settings, film.region().width);
         for band in film.unfinished_bands() {
             let mut tile = Tile::new(band);
@@ -340,10 +349,11 @@ pub(crate) fn in_tiles<G: Send, T: Send>(
 
 fn render_tile<A: Antialias>(scene: &CompiledScene, region: Region, antialias: &A) -> Tile {
     let mut tile = Tile::new(region);
+    let integrator = Sharp::of(scene);
     let first_hits = FirstHits::find(scene, antialias, region);
     for (x, y) in region.pixel_places() {
         let known = first_hits.of_pixel(tile.pixels.len());
-        let pixel = render_pixel(scene, (&Whitted, antialias), (x, y), known, &mut tile.account);
+        let pixel = render_pixel(scene, (&integrator, antialias), (x, y), known, &mut tile.account);
         let color = if pixel.has_bad_samples { without_bad_samples(scene, antialias, (x, y)) } else { pixel.color };
         tile.pixels.push(color);
         tile.depths.push(pixel.depth);
