@@ -31,6 +31,7 @@ mod reconstruct;
 #[allow(dead_code)]
 mod sampler;
 mod schedule;
+mod seen_first;
 mod shading;
 mod textures;
 mod visibility;
@@ -47,3 +48,4 @@ pub use heatmap::{HeatMap, heatmap};
 pub use memory::memory_needed;
 pub use observer::{NotTraced, RayCounts, RayKind, Scattering, Source, Weighing};
 pub use schedule::{Progress, RenderError, RenderOptions, render, render_on, with_threads};
+pub use seen_first::{SeenFirst, seen_first};
