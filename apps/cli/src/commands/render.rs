@@ -1,6 +1,7 @@
 //! `durer render`: from a scene file to a picture file.
 
 mod job;
+mod layers;
 mod manner;
 mod report;
 mod saver;
@@ -12,6 +13,7 @@ use crate::overrides::Overrides;
 use crate::target::FileOptions;
 use clap::Args;
 use durer::{Origin, Region, SampleRange, SimdLevel};
+use layers::LayerOptions;
 use saving::Saving;
 use std::path::{Path, PathBuf};
 
@@ -22,6 +24,7 @@ const EXAMPLES: &str = "\
 Examples:
   durer render room.yaml                                  writes room.png
   durer render room.yaml -o room.exr --bit-depth float
+  durer render room.yaml -o film.exr --layers all         see `durer develop --help`
   durer render bunny.ply                                  a model
   durer render room.yaml --width 1920 --antialias grid:4
   durer render room.yaml --crop 100,80,64,64 -o detail.png
@@ -69,6 +72,9 @@ pub(crate) struct Arguments {
 
     #[command(flatten)]
     file: FileOptions,
+
+    #[command(flatten)]
+    layers: LayerOptions,
 }
 
 /// Renders the scene.
