@@ -44,6 +44,36 @@ pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)
 }
 
+/// Sine and cosine of an angle in whole turns: of 2π times `turns`, for |turns| ≤ 2⁵⁰, with errors below 3·10⁻¹⁶.
+///
+/// Quarters of a turn are taken off exactly, which radians do not allow, and what is left, at most an eighth, goes into two
+/// Taylor polynomials. Several times as fast as [`sin`] and [`cos`].
+#[inline]
+pub fn sin_cos_of_turns(turns: f64) -> (f64, f64) {
+    // Adding this rounds to a whole number, which then stands in the lowest bits.
+    const ROUND: f64 = (3_u64 << 51) as f64;
+    let rounded = turns * 4.0 + ROUND;
+    let x = (turns * 4.0 - (rounded - ROUND)) * std::f64::consts::FRAC_PI_2;
+    let x2 = x * x;
+    let x4 = x2 * x2;
+    // Terms up to the 17th power, those of every other pair apart, so that they do not wait for each other.
+    let sine = 1.0 - x2 * (1.0 / 6.0)
+        + x4 * ((1.0 / 120.0 - x2 * (1.0 / 5_040.0))
+            + x4 * ((1.0 / 362_880.0 - x2 * (1.0 / 39_916_800.0))
+                + x4 * (1.0 / 6_227_020_800.0 - x2 * (1.0 / 1_307_674_368_000.0))));
+    let cosine = 1.0 - x2 * 0.5
+        + x4 * ((1.0 / 24.0 - x2 * (1.0 / 720.0))
+            + x4 * ((1.0 / 40_320.0 - x2 * (1.0 / 3_628_800.0))
+                + x4 * ((1.0 / 479_001_600.0 - x2 * (1.0 / 87_178_291_200.0)) + x4 * (1.0 / 20_922_789_888_000.0))));
+    let sine = x * sine;
+    match rounded.to_bits() & 3 {
+        0 => (sine, cosine),
+        1 => (cosine, -sine),
+        2 => (-sine, -cosine),
+        _ => (-cosine, sine),
+    }
+}
+
 /// e to the power `x`, in single precision with a relative error below 2⁻²³; 0 below about -87, infinite above 88.7.
 ///
 /// Cody and Waite's reduction: x = n ln 2 + r with |r| ≤ ln 2 / 2, a polynomial for eʳ, and n put into the exponent.
@@ -137,6 +167,19 @@ mod tests {
             assert!(error < 1.2e-7, "exp({x}): relative error {error}");
         }
         assert_eq!((exp(-200.0), exp(0.0), exp(200.0)), (0.0, 1.0, f32::INFINITY));
+    }
+
+    #[test]
+    fn sine_and_cosine_of_turns_are_those_of_libm() {
+        for i in -40_000..=40_000 {
+            let turns = f64::from(i) / 8_192.0;
+            let (sine, cosine) = sin_cos_of_turns(turns);
+            // Radians are rounded by up to 4.4·10⁻¹⁶ themselves.
+            let angle = (turns - turns.round()) * std::f64::consts::TAU;
+            assert!((sine - libm::sin(angle)).abs() < 8e-16, "{turns}: {sine}");
+            assert!((cosine - libm::cos(angle)).abs() < 8e-16, "{turns}: {cosine}");
+        }
+        assert_eq!((sin_cos_of_turns(0.0), sin_cos_of_turns(0.25)), ((0.0, 1.0), (1.0, 0.0)));
     }
 
     #[test]
