@@ -147,7 +147,7 @@ impl<O: Observer> Path<'_, O> {
     fn scatter(&mut self, shading: &Shading<'_>) -> bool {
         let frame = Frame::around(shading.normal());
         let out = frame.to_local(-shading.direction);
-        let bsdf = Bsdf::diffuse(shading.color * shading.material.diffuse);
+        let bsdf = Bsdf::Diffuse(shading.color * shading.material.diffuse);
         let receiver = Receiver { point: shading.origin_back(), normal: shading.normal() };
         let step = self.step();
         if !bsdf.is_specular() {
