@@ -7,6 +7,7 @@ mod large;
 mod machine;
 mod measure;
 mod options;
+mod path;
 mod peers;
 mod programs;
 mod report;
@@ -23,6 +24,8 @@ pub(crate) const USAGE: &str = "\
                             rays a pixel and errors of every way of anti-aliasing
   bench kernel [--rounds N] [--scenes NAME,NAME]
                             rays a second of durer, Embree 4 and the crates obvhs and bvh
+  bench path [--rounds N] [--samples N] [--size N] [--scenes NAME,NAME]
+                            path tracing to equal error in durer, Mitsuba 3 and Cycles
   bench growth [--rounds N] [--counts N,N]
                             how durer's kernel grows with the scene, to docs/performance.md
                             (the others write to benches/runs/)";
@@ -36,6 +39,10 @@ pub(crate) fn run(words: &[&str]) -> Option<Result<(), String>> {
         "large" => Some(options(&["--rounds", "--counts"]).and_then(|options| large::run(&options))),
         "kernel" => Some(options(&["--rounds", "--scenes"]).and_then(|options| kernel::run(&options))),
         "antialias" => Some(options(&["--scenes"]).and_then(|options| antialias::run(&options))),
+        "path" => {
+            let known = ["--rounds", "--samples", "--size", "--scenes"];
+            Some(options(&known).and_then(|options| path::run(&options)))
+        }
         "growth" => Some(options(&["--rounds", "--counts"]).and_then(|options| growth::run(&options))),
         _ => None,
     }

@@ -1,7 +1,7 @@
 //! What a picture says of where it comes from. Neither time nor place nor name, for the same scene with the same settings
-//! gives the same bytes everywhere. There is no seed, since nothing is random.
+//! gives the same bytes everywhere.
 
-use crate::commands::info::{antialias_text, filter_text, transfer_word};
+use crate::commands::info::{antialias_text, filter_text, tone_mapping_word, transfer_word};
 use durer::Region;
 use durer::math::Fingerprint;
 use durer::scene::{Picture, Scene};
@@ -13,7 +13,7 @@ pub(crate) fn software() -> (String, String) {
 
 /// The scene that it shows, as it was loaded, and the settings that it was rendered with, wherever those come from.
 pub(crate) fn of_render(loaded: Fingerprint, rendered: &Scene, crop: Option<Region>) -> Vec<(String, String)> {
-    let Picture { width, height, transfer } = rendered.picture;
+    let Picture { width, height, transfer, exposure, tone_mapping } = rendered.picture;
     let settings = rendered.render;
     let mut entries = vec![
         software(),
@@ -25,6 +25,9 @@ pub(crate) fn of_render(loaded: Fingerprint, rendered: &Scene, crop: Option<Regi
         entry("Max depth", settings.max_depth.to_string()),
         entry("Min weight", settings.min_weight.to_string()),
     ];
+    let tone_mapping = tone_mapping_word(tone_mapping);
+    entries.extend((exposure != 0.0).then(|| entry("Exposure", exposure.to_string())));
+    entries.extend((tone_mapping != "none").then(|| entry("Tone mapping", tone_mapping)));
     entries.extend(crop.map(|Region { x, y, width, height }| entry("Crop", format!("{x},{y},{width},{height}"))));
     entries
 }

@@ -33,8 +33,8 @@ pub use durer_math as math;
 pub use durer_render::{
     BadSample, Bounds, CompiledScene, Contribution, Element, Film, FilmParts, GeometryMemory, HeatMap, HitExplanation,
     HoleExplanation, LightExplanation, NotTraced, PixelExplanation, Progress, RayCounts, RayExplanation, RayKind,
-    Region, RenderError, RenderOptions, SampleExplanation, SimdLevel, Source, compile, compile_for, explain, heatmap,
-    memory_needed, render, render_on, with_threads,
+    Region, RenderError, RenderOptions, SampleExplanation, Scattering, SimdLevel, Source, Weighing, compile,
+    compile_for, explain, heatmap, memory_needed, render, render_on, with_threads,
 };
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};

@@ -27,6 +27,7 @@ mod reference;
 mod schema;
 mod settings;
 pub(crate) mod suggest;
+mod surfaces;
 mod syntax;
 mod tables;
 mod textures;

@@ -1,11 +1,14 @@
 //! From an [`Image`] to the bytes of a picture file.
 
+use durer_math::Rgb;
+use std::borrow::Cow;
 use std::path::Path;
 
 use thiserror::Error;
 
 use crate::files::{exr, hdr, jpeg, pfm, png};
-use crate::{Image, Transfer};
+use crate::tone_mapping::Developer;
+use crate::{Image, ToneMapping, Transfer};
 
 /// The picture formats that we read and write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,6 +115,10 @@ pub struct EncodeOptions {
     /// How light becomes numbers in PNG and JPEG. With [`Transfer::Linear`] the raw numbers reach the screen, so the
     /// file carries no gamma note. EXR, HDR and PFM always hold linear light.
     pub transfer: Transfer,
+    /// How many stops brighter the picture becomes in PNG and JPEG. EXR, HDR and PFM hold the light of the scene.
+    pub exposure: f32,
+    /// How light that is brighter than white is shown in PNG and JPEG.
+    pub tone_mapping: ToneMapping,
     /// Bits of a component in PNG.
     pub png_depth: PngDepth,
     /// Precision in EXR.
@@ -124,11 +131,13 @@ pub struct EncodeOptions {
 }
 
 impl EncodeOptions {
-    /// The usual choices for a format: sRGB, PNG with 8 bits, EXR in half precision, JPEG of quality 92, no metadata.
+    /// The usual choices for a format: sRGB, light as it is, PNG with 8 bits, EXR in half precision, JPEG of quality 92, no metadata.
     pub fn new(format: FileFormat) -> EncodeOptions {
         EncodeOptions {
             format,
             transfer: Transfer::Srgb,
+            exposure: 0.0,
+            tone_mapping: ToneMapping::None,
             png_depth: PngDepth::Eight,
             exr_samples: ExrSamples::Half,
             jpeg_quality: 92,
@@ -152,6 +161,12 @@ impl EncodeOptions {
         let texts: u64 = self.metadata.iter().map(|(key, text)| (key.len() + 2 * text.len()) as u64).sum();
         // Beside the numbers: what compressors add where they fail, something for each row, and what stands before all.
         raw + raw / 64 + 16 * u64::from(height) + 4096 + texts
+    }
+
+    /// As [`EncodeOptions::most_bytes`], with alpha.
+    pub fn most_bytes_with_alpha(&self, width: u32, height: u32) -> u64 {
+        let bytes = self.most_bytes(width, height);
+        bytes + bytes.div_ceil(3)
     }
 }
 
@@ -183,14 +198,14 @@ pub enum EncodeError {
         /// Height.
         height: u32,
     },
-    /// The length of [`Image::pixels`] is not width times height.
-    #[error("a picture of {width} × {height} pixels comes with {count} colors")]
+    /// The length of [`Image::pixels`], or of what comes with it, is not width times height.
+    #[error("a picture of {width} × {height} pixels comes with {count} values")]
     WrongPixelCount {
         /// Width.
         width: u32,
         /// Height.
         height: u32,
-        /// The number of colours.
+        /// The number of colors, or of alphas.
         count: usize,
     },
     /// The format has no room for so many pixels.
@@ -202,6 +217,12 @@ pub enum EncodeError {
         width: u32,
         /// Height.
         height: u32,
+    },
+    /// The format cannot say that a part of a pixel is not there.
+    #[error("{} has no alpha; PNG and EXR have", format.name())]
+    NoAlpha {
+        /// The format.
+        format: FileFormat,
     },
     /// A keyword of the metadata that PNG does not allow: empty, over 79 characters, or not Latin-1.
     #[error("`{keyword}` cannot be a keyword of the metadata in a PNG file")]
@@ -221,32 +242,69 @@ pub enum EncodeError {
 
 /// Stores a picture as the bytes of a file. The same picture and options give the same bytes, on every machine.
 ///
-/// PNG and JPEG clamp to black and white, and NaN becomes black. EXR and PFM keep every number; HDR has no negative
-/// ones and no NaN, which become 0.
+/// PNG and JPEG show the picture as [`EncodeOptions::exposure`] and [`EncodeOptions::tone_mapping`] say; they clamp to black
+/// and white, and NaN becomes black. EXR and PFM keep every number; HDR has no negative ones and no NaN, which become 0.
 ///
 /// # Errors
 /// If the picture is empty, too large for the format, or not consistent, or if a keyword of the metadata is not allowed.
 pub fn encode(image: &Image, options: &EncodeOptions) -> Result<Vec<u8>, EncodeError> {
+    encode_picture(image, None, options)
+}
+
+/// As [`encode`], of a picture of which only a part is there: `alpha` has a number for each pixel, from 0 where nothing is to
+/// 1 where all is, and the colors are of what is there (associated: black where nothing is, and not divided by alpha).
+/// EXR stores them so; PNG stores the colors divided by alpha, since it is defined that way, and then developed.
+///
+/// # Errors
+/// As [`encode`]; if there is not one alpha for each pixel; or if the format has no alpha.
+pub fn encode_with_alpha(image: &Image, alpha: &[f32], options: &EncodeOptions) -> Result<Vec<u8>, EncodeError> {
+    encode_picture(image, Some(alpha), options)
+}
+
+fn encode_picture(image: &Image, alpha: Option<&[f32]>, options: &EncodeOptions) -> Result<Vec<u8>, EncodeError> {
     let Image { width, height, .. } = *image;
     if width == 0 || height == 0 {
         return Err(EncodeError::NoPixels { width, height });
     }
-    if !image.has_all_pixels() {
-        return Err(EncodeError::WrongPixelCount { width, height, count: image.pixels.len() });
+    let count = alpha.map_or(image.pixels.len(), <[f32]>::len);
+    if !image.has_all_pixels() || count != image.pixels.len() {
+        return Err(EncodeError::WrongPixelCount { width, height, count });
     }
+    let without_alpha = || match alpha {
+        Some(_) => Err(EncodeError::NoAlpha { format: options.format }),
+        None => Ok(()),
+    };
     match options.format {
-        FileFormat::Png => png::encode(image, options),
-        FileFormat::Jpeg => jpeg::encode(image, options),
-        FileFormat::Exr => exr::encode(image, options),
-        FileFormat::Hdr => Ok(hdr::encode(image)),
-        FileFormat::Pfm => Ok(pfm::encode(image)),
+        FileFormat::Png => png::encode(&developed(image, alpha, options), alpha, options),
+        FileFormat::Jpeg => without_alpha().and_then(|()| jpeg::encode(&developed(image, None, options), options)),
+        FileFormat::Exr => exr::encode(image, alpha, options),
+        FileFormat::Hdr => without_alpha().map(|()| hdr::encode(image)),
+        FileFormat::Pfm => without_alpha().map(|()| pfm::encode(image)),
     }
+}
+
+/// What a screen shows, in linear light; of the whole of a pixel, whatever its alpha.
+fn developed<'i>(image: &'i Image, alpha: Option<&[f32]>, options: &EncodeOptions) -> Cow<'i, Image> {
+    let developer = Developer::new(options.tone_mapping, options.exposure);
+    let pixels = match alpha {
+        None if developer.is_identity() => return Cow::Borrowed(image),
+        None => image.pixels.iter().map(|&color| developer.develop(color)).collect(),
+        Some(alpha) => {
+            let pixels = image.pixels.iter().zip(alpha);
+            pixels.map(|(&color, &alpha)| developer.develop(straight(color, alpha))).collect()
+        }
+    };
+    Cow::Owned(Image { pixels, ..*image })
+}
+
+/// The color of what is there.
+fn straight(color: Rgb, alpha: f32) -> Rgb {
+    if alpha > 0.0 { color * (1.0 / alpha) } else { Rgb::BLACK }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use durer_math::Rgb;
 
     #[test]
     fn formats_by_name() {
@@ -285,6 +343,23 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn no_alpha_where_there_is_none() {
+        let image = Image::new(2, 1);
+        for format in FileFormat::ALL {
+            let encoded = encode_with_alpha(&image, &[1.0, 0.5], &EncodeOptions::new(format));
+            match format {
+                FileFormat::Png | FileFormat::Exr => assert!(encoded.is_ok(), "{format:?}"),
+                FileFormat::Jpeg | FileFormat::Hdr | FileFormat::Pfm => {
+                    let message = format!("{} has no alpha; PNG and EXR have", format.name());
+                    assert_eq!(encoded.unwrap_err().to_string(), message);
+                }
+            }
+        }
+        let wrong = encode_with_alpha(&image, &[1.0], &EncodeOptions::default());
+        assert!(matches!(wrong, Err(EncodeError::WrongPixelCount { count: 1, .. })));
     }
 
     #[test]

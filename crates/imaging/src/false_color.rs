@@ -24,7 +24,7 @@ pub fn false_color(map: &ErrorMap) -> Image {
 }
 
 /// The color of a value from 0 to 1; others are clamped, NaN is black.
-fn magma(value: f32) -> Rgb {
+pub(crate) fn magma(value: f32) -> Rgb {
     let t = if value > 0.0 { value.min(1.0) } else { 0.0 };
     let component = |channel: usize| MAGMA.iter().rev().fold(0.0, |sum, coefficients| sum * t + coefficients[channel]);
     Rgb::new(component(0), component(1), component(2)).map(|srgb| linear_from_srgb(srgb.clamp(0.0, 1.0)))

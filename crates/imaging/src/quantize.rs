@@ -8,7 +8,7 @@ use crate::Transfer;
 use durer_math::Rgb;
 
 /// The byte stored for an amount of linear light, computed the slow way. This is the definition.
-fn byte_from_linear(linear: f32, transfer: Transfer) -> u8 {
+pub(crate) fn byte_from_linear(linear: f32, transfer: Transfer) -> u8 {
     // The product is exact in double precision, so this rounds once, halves upward; `as` clamps and maps NaN to 0.
     (f64::from(transfer.stored_from_linear(linear)) * 255.0 + 0.5) as u8
 }

@@ -1,5 +1,8 @@
-//! The camera, compiled: a point of the picture becomes a ray.
+//! The camera, compiled: a point of the picture, and one of the lens if there is one, become a ray.
 
+mod lens;
+
+use self::lens::Lens;
 use durer_geometry::{Bounds, Ray};
 use durer_math::{DVec2, DVec3, functions::tan};
 use durer_scene as scene;
@@ -17,6 +20,8 @@ pub(crate) struct Camera {
     parallel: bool,
     /// From pixels to -1..1.
     scale: DVec2,
+    /// `None` for a pinhole, which sees everything sharp.
+    lens: Option<Lens>,
 }
 
 impl Camera {
@@ -46,16 +51,28 @@ impl Camera {
             up: up * half_height,
             parallel,
             scale: DVec2::new(2.0 / f64::from(width), 2.0 / f64::from(height)),
+            lens: None,
         }
+    }
+
+    /// True if rays start from more than one point of a lens.
+    pub(crate) fn has_lens(&self) -> bool {
+        self.lens.is_some()
     }
 
     /// The point that all rays start from, if there is one.
     pub(crate) fn eye(&self) -> Option<DVec3> {
-        (!self.parallel).then_some(self.position)
+        (!self.parallel && self.lens.is_none()).then_some(self.position)
     }
 
     /// A box around the points that rays start from.
     pub(crate) fn origins(&self) -> Bounds {
+        let reach = DVec3::splat(self.lens.map_or(0.0, |lens| lens.reach()));
+        let Bounds { min, max } = self.origins_of_pinholes();
+        Bounds { min: min - reach, max: max + reach }
+    }
+
+    fn origins_of_pinholes(&self) -> Bounds {
         if !self.parallel {
             return Bounds::of_points([self.position]);
         }
@@ -96,16 +113,37 @@ impl Camera {
         Projected { at, scale, depth: from_eye.dot(self.forward) }
     }
 
-    /// The ray through a point of the picture, in pixels from its upper left corner.
+    /// The ray through a point of the picture, in pixels from its upper left corner, and the middle of the lens.
     #[inline]
     pub(crate) fn ray(&self, at: DVec2) -> Ray {
-        let (x, y) = (at.x * self.scale.x - 1.0, 1.0 - at.y * self.scale.y);
-        let across = self.right * x + self.up * y;
+        let across = self.across(at);
         if self.parallel {
             Ray { origin: self.position + across, direction: self.forward }
         } else {
             Ray { origin: self.position, direction: (self.forward + across).normalize() }
         }
+    }
+
+    /// The ray through a point of the picture and one of the lens, which stands for a point of the unit square. Without a lens
+    /// it is [`Camera::ray`].
+    #[inline]
+    pub(crate) fn ray_through_lens(&self, at: DVec2, on_lens: DVec2) -> Ray {
+        let Some(lens) = &self.lens else { return self.ray(at) };
+        let across = self.across(at);
+        // What a point of the picture shows of the plane in focus is the same from all of the lens.
+        let (start, in_focus) = match self.parallel {
+            true => (self.position + across, self.forward * lens.focus),
+            false => (self.position, (self.forward + across) * lens.focus),
+        };
+        let offset = lens.point(on_lens);
+        Ray { origin: start + offset, direction: (in_focus - offset).normalize() }
+    }
+
+    /// From the middle of the picture to a point of it, as `right` and `up` are measured.
+    #[inline]
+    fn across(&self, at: DVec2) -> DVec3 {
+        let (x, y) = (at.x * self.scale.x - 1.0, 1.0 - at.y * self.scale.y);
+        self.right * x + self.up * y
     }
 }
 
@@ -137,6 +175,7 @@ fn frame(bounds: Bounds, aspect: f64) -> scene::Camera {
         look_at: center,
         up: DVec3::Y,
         projection: scene::Projection::FieldOfView { degrees },
+        lens: None,
     }
 }
 
@@ -213,6 +252,85 @@ mod tests {
         assert!(pieces.windows(2).all(|two| (two[0][1].at - two[1][0].at).length() < 1e-9), "one joins the other");
         assert!(pieces.iter().all(|[far, near]| near.scale <= 2.0001 * far.scale && near.depth > 0.0));
         assert!((pieces[0][0].depth - 8.0).abs() < 1e-9 && pieces[pieces.len() - 1][1].depth < 0.01);
+    }
+
+    /// A camera with a lens of radius 0.5, in focus at 4, and the same as a pinhole.
+    fn with_lens(projection: scene::Projection) -> (Camera, Camera) {
+        let described = scene::Camera {
+            position: DVec3::new(1.0, 2.0, 3.0),
+            look_at: DVec3::new(-2.0, 1.0, 0.0),
+            projection,
+            ..scene::Camera::default()
+        };
+        let pinhole = Camera::compile(Some(&described), Bounds::EMPTY, 300, 200);
+        let axes = (pinhole.right.normalize(), pinhole.up.normalize());
+        (Camera { lens: Some(Lens::new(axes, 0.5, 4.0, 0, 0.0)), ..pinhole }, pinhole)
+    }
+
+    const PROJECTIONS: [scene::Projection; 2] =
+        [scene::Projection::FieldOfView { degrees: 50.0 }, scene::Projection::Orthographic { height: 4.0 }];
+
+    fn squares() -> impl Iterator<Item = DVec2> {
+        (0..100).map(|k| DVec2::new(f64::from(k % 10) / 9.5, f64::from(k / 10) / 9.5))
+    }
+
+    #[test]
+    fn rays_through_all_of_the_lens_meet_in_the_plane_in_focus() {
+        for projection in PROJECTIONS {
+            let (camera, pinhole) = with_lens(projection);
+            for at in [DVec2::new(150.0, 100.0), DVec2::ZERO, DVec2::new(17.0, 180.0)] {
+                let middle = pinhole.ray(at);
+                assert_near(camera.ray(at).direction, middle.direction);
+                let meeting = middle.at(4.0 / middle.direction.dot(camera.forward));
+                let mut widest: f64 = 0.0;
+                for square in squares() {
+                    let ray = camera.ray_through_lens(at, square);
+                    let offset = ray.origin - middle.origin;
+                    assert!(offset.dot(camera.forward).abs() < 1e-12 && offset.length() <= 0.5 + 1e-12);
+                    let Bounds { min, max } = camera.origins();
+                    assert!(ray.origin.cmpge(min).all() && ray.origin.cmple(max).all(), "{projection:?}");
+                    widest = widest.max(offset.length());
+                    assert_near(ray.at((meeting - ray.origin).dot(ray.direction)), meeting);
+                }
+                assert!(widest > 0.4);
+            }
+        }
+        let (camera, pinhole) = with_lens(PROJECTIONS[0]);
+        assert_eq!((camera.eye(), camera.has_lens()), (None, true));
+        let at = DVec2::new(3.0, 7.0);
+        let (a, b) = (pinhole.ray(at), pinhole.ray_through_lens(at, DVec2::new(0.1, 0.9)));
+        assert!(a.origin == b.origin && a.direction == b.direction && pinhole.eye().is_some());
+    }
+
+    /// A lens of focal length f and diameter A that is in focus at S shows a point at distance D as a disc of diameter
+    /// A f |D - S| / (D (S - f)) on a sensor behind it at the distance of the sharp picture, S f / (S - f).
+    #[test]
+    fn points_out_of_focus_become_discs_as_the_formula_of_thin_lenses_says() {
+        let (camera, _) = with_lens(scene::Projection::FieldOfView { degrees: 50.0 });
+        let (diameter, in_focus, focal_length) = (1.0, 4.0, 0.7);
+        for depth in [1.5, 3.0, 4.0, 9.0, 1e4] {
+            let point = camera.position + (camera.forward + camera.right * 0.2 - camera.up * 0.3) * depth;
+            let seen: Vec<DVec2> = squares()
+                .map(|square| {
+                    // Where the line from this point of the lens through the point goes through the plane in focus.
+                    let on_lens = camera.position + camera.lens.expect("it has one").point(square);
+                    let through = on_lens + (point - on_lens) * (in_focus / depth);
+                    let at = camera.project(through, in_focus).at;
+                    let ray = camera.ray_through_lens(at, square);
+                    assert!((point - ray.at((point - ray.origin).dot(ray.direction))).length() < 1e-9 * depth);
+                    at
+                })
+                .collect();
+            let middle = camera.project(point, depth).at;
+            let farthest = seen.iter().map(|at| (*at - middle).length()).fold(0.0, f64::max);
+            let on_sensor = diameter * focal_length * (depth - in_focus).abs() / (depth * (in_focus - focal_length));
+            let sensor_height = 2.0 * tan(25_f64.to_radians()) * in_focus * focal_length / (in_focus - focal_length);
+            let expected = on_sensor / 2.0 / sensor_height * 200.0;
+            assert!(
+                farthest <= expected * 1.000_001 + 1e-9 && farthest >= expected * 0.97,
+                "{depth}: {farthest} {expected}"
+            );
+        }
     }
 
     #[test]

@@ -8,6 +8,7 @@ mod shapes;
 mod solids;
 mod tree;
 
+use crate::background::Background;
 use crate::camera::Camera;
 use crate::emitters::Emitters;
 use crate::fog::Fog;
@@ -17,7 +18,7 @@ use crate::textures::Textures;
 use contents::Contents;
 use durer_geometry::{Bounds, BuildFor, Hit, Plan, Primitive, SimdLevel, Vantage, World};
 use durer_math::Rgb;
-use durer_scene::{Background, CheckedScene, Picture, RenderSettings, Scene, Trees};
+use durer_scene::{CheckedScene, Picture, RenderSettings, Scene, Trees};
 use imports::Brought;
 use looks::Looks;
 use rayon::prelude::*;
@@ -123,7 +124,7 @@ pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
         shared,
         textures: Textures::compile(scene),
         materials,
-        background: scene.background,
+        background: Background::compile(scene),
         ambient: scene.ambient,
         fog: scene.fog.as_ref().map(Fog::compile),
         picture: scene.picture,

@@ -6,7 +6,7 @@ use crate::eye::SceneEye;
 use crate::film::{Account, Region};
 use crate::holes::Known;
 use crate::integrators::{Integrator, whitted::Whitted};
-use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Source, SurfaceSeen};
+use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Scattering, Source, SurfaceSeen, Weighing};
 use crate::reconstruct::{Reconstruction, color_of, normalize};
 use crate::sampler::Sampler;
 use crate::schedule::{WithAntialias, pixel_alone, with_antialias};
@@ -61,6 +61,8 @@ pub struct RayExplanation {
     pub hit: Option<HitExplanation>,
     /// The lights, as seen from there.
     pub lights: Vec<LightExplanation>,
+    /// Of a path: how it went on from there.
+    pub scattering: Option<Scattering>,
     /// What it added to the sample, in order, weights included.
     pub contributions: Vec<Contribution>,
     /// Rays that the surface asked for but that were not traced.
@@ -150,6 +152,8 @@ pub struct Contribution {
     pub source: Source,
     /// How much, all weights included.
     pub amount: Rgb,
+    /// Of a path: what it counts beside the other way to find it; `None` where there is no other.
+    pub weighing: Option<Weighing>,
 }
 
 /// Explains the pixel at column `x`, row `y`; `None` if it is outside of the picture.
@@ -160,7 +164,7 @@ pub fn explain(scene: &CompiledScene, x: u32, y: u32) -> Option<PixelExplanation
     }
     let splats = with_antialias(scene, Samples { scene, x, y });
     let explained = splats.iter().filter_map(|splat| {
-        let mut recorder = Recorder { scene, ray: None, open: Vec::new() };
+        let mut recorder = Recorder { scene, ray: None, open: Vec::new(), weighing: None };
         let ray = scene.camera.ray(splat.at);
         let color = Whitted.radiance(scene, &ray, Known::Nothing, &Sampler::of_place(0, splat.at), &mut recorder);
         let weight = (splat.weight != 0.0).then_some(splat.weight);
@@ -205,6 +209,8 @@ struct Recorder<'s> {
     ray: Option<RayExplanation>,
     /// The ray being traced, and those that led to it.
     open: Vec<RayExplanation>,
+    /// Of the contribution that comes next.
+    weighing: Option<Weighing>,
 }
 
 impl Observer for Recorder<'_> {
@@ -219,6 +225,7 @@ impl Observer for Recorder<'_> {
             holes: Vec::new(),
             hit: None,
             lights: Vec::new(),
+            scattering: None,
             contributions: Vec::new(),
             not_traced: Vec::new(),
             children: Vec::new(),
@@ -253,7 +260,16 @@ impl Observer for Recorder<'_> {
     }
 
     fn contribution(&mut self, source: Source, amount: Rgb) {
-        self.with_ray(|ray| ray.contributions.push(Contribution { source, amount }));
+        let weighing = self.weighing.take();
+        self.with_ray(|ray| ray.contributions.push(Contribution { source, amount, weighing }));
+    }
+
+    fn weighing(&mut self, weighing: &Weighing) {
+        self.weighing = Some(*weighing);
+    }
+
+    fn scattering(&mut self, scattering: &Scattering) {
+        self.with_ray(|ray| ray.scattering = Some(*scattering));
     }
 
     fn not_traced(&mut self, kind: RayKind, weight: Rgb, why: NotTraced) {

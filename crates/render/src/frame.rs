@@ -18,12 +18,12 @@ impl Frame {
     }
 
     /// From the world to the frame.
-    pub(crate) fn to_local(&self, v: DVec3) -> DVec3 {
+    pub(crate) fn to_local(self, v: DVec3) -> DVec3 {
         DVec3::new(v.dot(self.x), v.dot(self.y), v.dot(self.z))
     }
 
     /// From the frame to the world.
-    pub(crate) fn to_world(&self, v: DVec3) -> DVec3 {
+    pub(crate) fn to_world(self, v: DVec3) -> DVec3 {
         self.x * v.x + self.y * v.y + self.z * v.z
     }
 }

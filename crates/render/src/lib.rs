@@ -34,6 +34,7 @@ mod schedule;
 mod shading;
 mod textures;
 mod visibility;
+mod whitted_reading;
 
 pub use compile::{CompiledScene, GeometryMemory, compile, compile_for};
 pub use durer_geometry::{Bounds, SimdLevel};
@@ -44,5 +45,5 @@ pub use explain::{
 pub use film::{BadSample, Film, FilmParts, Region};
 pub use heatmap::{HeatMap, heatmap};
 pub use memory::memory_needed;
-pub use observer::{NotTraced, RayCounts, RayKind, Source};
+pub use observer::{NotTraced, RayCounts, RayKind, Scattering, Source, Weighing};
 pub use schedule::{Progress, RenderError, RenderOptions, render, render_on, with_threads};

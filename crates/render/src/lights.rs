@@ -43,15 +43,15 @@ pub(crate) struct Arriving {
 impl Light {
     pub(crate) fn compile(light: &durer_scene::Light) -> Light {
         let kind = match light.kind {
-            LightKind::Point { position, falloff } => Kind::Point { position, falloff },
-            LightKind::Spot { position, target, half_angle_degrees, inner_half_angle_degrees, falloff } => {
+            LightKind::Point { position, falloff, radius: _ } => Kind::Point { position, falloff },
+            LightKind::Spot { position, target, half_angle_degrees, inner_half_angle_degrees, falloff, radius: _ } => {
                 let cosine = |degrees: f64| cos(degrees.to_radians());
                 let cone = Cone { inner: cosine(inner_half_angle_degrees), outer: cosine(half_angle_degrees) };
                 Kind::Spot { position, axis: (target - position).normalize(), cone, falloff }
             }
             LightKind::Directional { direction } => Kind::Directional { towards: -direction.normalize() },
         };
-        Light { power: light.color * light.intensity, kind }
+        Light { power: light.color * light.classic_intensity(), kind }
     }
 
     /// The point that it shines from, if there is one.
@@ -115,15 +115,20 @@ impl Cone {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use durer_scene::Strength;
 
     fn light(kind: LightKind) -> Light {
-        Light::compile(&durer_scene::Light { name: None, color: Rgb::WHITE, intensity: 0.5, kind })
+        Light::compile(&durer_scene::Light { name: None, color: Rgb::WHITE, strength: Strength::Classic(0.5), kind })
     }
 
     #[test]
     fn falloff_none_is_constant_and_inverse_square_quarters_at_twice_the_distance() {
         let at = |falloff, x| {
-            light(LightKind::Point { position: DVec3::ZERO, falloff }).arriving(DVec3::X * x).unwrap().light.r
+            light(LightKind::Point { position: DVec3::ZERO, falloff, radius: 0.0 })
+                .arriving(DVec3::X * x)
+                .unwrap()
+                .light
+                .r
         };
         assert_eq!((at(Falloff::None, 1.0), at(Falloff::None, 7.0)), (0.5, 0.5));
         assert_eq!((at(Falloff::InverseSquare, 1.0), at(Falloff::InverseSquare, 2.0)), (0.5, 0.125));
@@ -138,6 +143,7 @@ mod tests {
             half_angle_degrees: 15.0,
             inner_half_angle_degrees: 15.0,
             falloff: Falloff::None,
+            radius: 0.0,
         });
         let radius = 10.0 * 0.267_949_192_431_122_7;
         for direction in [DVec3::X, DVec3::Y, DVec3::new(0.6, -0.8, 0.0)] {
@@ -155,6 +161,7 @@ mod tests {
             half_angle_degrees: 60.0,
             inner_half_angle_degrees: 0.0,
             falloff: Falloff::None,
+            radius: 0.0,
         });
         // Cosines 1 and 1/2; midway 3/4.
         let at = DVec3::new(0.75, (1.0_f64 - 0.75 * 0.75).sqrt(), 0.0);

@@ -1,7 +1,8 @@
-//! Materials, compiled: the numbers that shading reads, and the laws of reflection and refraction.
+//! Materials, compiled for Whitted's algorithm: the numbers that shading reads, and the laws of reflection and refraction.
 
+use crate::whitted_reading::whitted;
 use durer_math::{DVec3, Rgb, functions};
-use durer_scene::Paint;
+use durer_scene::{Paint, Sides};
 
 /// A material, compiled.
 #[derive(Clone, Copy, Debug)]
@@ -17,8 +18,8 @@ pub(crate) struct Material {
     pub(crate) fresnel: bool,
     /// What light loses inside, per unit of length, as the exponent of e (Beer–Lambert), negative.
     pub(crate) attenuation: Option<Rgb>,
-    /// Light that the surface gives off by itself.
-    pub(crate) emission: Rgb,
+    /// Light that the surface gives off by itself, if any.
+    pub(crate) emission: Option<durer_scene::Emission>,
     /// How much of the surface is there; `None` if all of it is, everywhere.
     pub(crate) opacity: Option<Paint>,
     /// What passes of light where no texture decides about that.
@@ -29,20 +30,21 @@ impl Material {
     pub(crate) fn compile(material: &durer_scene::Material) -> Material {
         let exponent =
             |a: &durer_scene::Attenuation| a.color.map(|c| (functions::ln(f64::from(c)) / a.distance) as f32);
+        let classic = &whitted(&material.kind);
         let mut compiled = Material {
-            color: material.color,
-            ambient: material.ambient,
-            diffuse: material.diffuse,
-            specular: material.specular,
-            shininess: material.shininess,
-            reflection: material.reflection,
-            transparency: material.transparency,
-            ior: material.ior,
-            fresnel: material.fresnel,
-            attenuation: material.attenuation.as_ref().map(exponent),
-            emission: material.emission,
+            color: classic.color,
+            ambient: classic.ambient,
+            diffuse: classic.diffuse,
+            specular: classic.specular,
+            shininess: classic.shininess,
+            reflection: classic.reflection,
+            transparency: classic.transparency,
+            ior: classic.ior,
+            fresnel: classic.fresnel,
+            attenuation: classic.attenuation.as_ref().map(exponent),
+            emission: Some(material.emission).filter(|emission| !emission.is_black()),
             opacity: Some(material.opacity).filter(|opacity| *opacity != Paint::Color(Rgb::WHITE)),
-            passed_if_even: material.transparency,
+            passed_if_even: classic.transparency,
         };
         if let Some(Paint::Color(opacity)) = compiled.opacity {
             compiled.passed_if_even = compiled.passed(opacity);
@@ -65,9 +67,18 @@ impl Material {
         self.transparency * opacity + (Rgb::WHITE - opacity)
     }
 
-    /// True if a texture decides about colour or opacity.
+    /// True if a texture decides about color, opacity or emission.
     pub(crate) fn is_textured(&self) -> bool {
-        matches!(self.color, Paint::Texture(_)) || matches!(self.opacity, Some(Paint::Texture(_)))
+        let paints = [Some(self.color), self.opacity, self.emission.map(|emission| emission.color)];
+        paints.iter().any(|paint| matches!(paint, Some(Paint::Texture(_))))
+    }
+
+    /// True if the side that a ray came from gives off light.
+    pub(crate) fn glows(&self, from_outside: bool) -> bool {
+        self.emission.is_some_and(|emission| match emission.sides {
+            Sides::Both => true,
+            Sides::Front => from_outside,
+        })
     }
 
     /// True if what a closed shape of it encloses bends light or takes it away.
@@ -147,6 +158,7 @@ pub(crate) enum Side {
 mod tests {
     use super::*;
     use durer_math::functions::{asin, cos, sin};
+    use durer_scene::{Classic, MaterialKind};
 
     fn at_angle(degrees: f64) -> DVec3 {
         let a = degrees.to_radians();
@@ -206,7 +218,10 @@ mod tests {
     fn attenuation_gives_its_color_at_its_distance_and_the_square_at_twice_that() {
         let color = Rgb::new(0.5, 0.8, 1.0);
         let attenuation = Some(durer_scene::Attenuation { color, distance: 3.0 });
-        let material = Material::compile(&durer_scene::Material { attenuation, ..Default::default() });
+        let material = Material::compile(&durer_scene::Material::of(MaterialKind::Classic(Classic {
+            attenuation,
+            ..Default::default()
+        })));
         let near = |a: Rgb, b: Rgb| (a - b).map(f32::abs).max_component() < 1e-6;
         assert!(near(material.transmittance(3.0), color) && near(material.transmittance(6.0), color * color));
         assert_eq!(material.transmittance(f64::INFINITY), Rgb::new(0.0, 0.0, 1.0));

@@ -45,6 +45,31 @@ pub enum NotTraced {
     TooFaint,
 }
 
+/// Of a path: light that two ways find, by aiming at an emitter and by going where the surface scatters to, and what that
+/// found by one of them counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weighing {
+    /// Density of the direction by the surface, per solid angle; infinite if it is the only one.
+    pub by_surface: f64,
+    /// Density of the direction by aiming at emitters, per solid angle; infinite for lights that are points.
+    pub by_aiming: f64,
+    /// What it counts, from 0 to 1.
+    pub part: f64,
+}
+
+/// Of a path: how it goes on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scattering {
+    /// Where to; unit length.
+    pub direction: DVec3,
+    /// Density of that direction, per solid angle; `None` if it is the only one.
+    pub pdf: Option<f64>,
+    /// What light from there counts, of that which leaves the surface.
+    pub weight: Rgb,
+    /// The chance with which the path goes on at all.
+    pub survival: f32,
+}
+
 /// What shading found out about a hit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfaceSeen {
@@ -84,6 +109,9 @@ pub(crate) trait Observer {
     fn shadow_ray(&mut self) {}
     /// An amount added to the pixel, weights included. The pixel is the sum of these, in this order.
     fn contribution(&mut self, _source: Source, _amount: Rgb) {}
+    /// Of the contribution that comes next.
+    fn weighing(&mut self, _weighing: &Weighing) {}
+    fn scattering(&mut self, _scattering: &Scattering) {}
     fn not_traced(&mut self, _kind: RayKind, _weight: Rgb, _why: NotTraced) {}
     fn ray_ends(&mut self) {}
 }

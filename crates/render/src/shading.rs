@@ -16,6 +16,8 @@ pub(crate) struct Shading<'a> {
     pub(crate) color: Rgb,
     /// How much of the surface is there; `None` if all of it.
     pub(crate) opacity: Option<Rgb>,
+    /// Light that it gives off by itself to where the ray came from.
+    pub(crate) emission: Rgb,
     /// The direction of the ray that came here.
     pub(crate) direction: DVec3,
     /// The surface's unit normal on the side that the ray came from: rays start on either side of the surface by it.
@@ -38,8 +40,13 @@ impl<'a> Shading<'a> {
             return Shading::in_detail(scene, ray, hit, &surface);
         }
         let material = &scene.materials[object.looks.material as usize];
-        let color = scene.textures.color(material.color, &Textured { scene, object, surface: &surface, hit });
-        Shading::of(object, ray, hit, &surface, material, color)
+        let textured = Textured { scene, object, surface: &surface, hit };
+        let mut shading =
+            Shading::of(object, ray, hit, &surface, material, scene.textures.color(material.color, &textured));
+        if material.glows(shading.from_outside) {
+            shading.emission = textured.emission(material);
+        }
+        shading
     }
 
     /// The same for surfaces of which the parts differ, or that are shaded by other normals than their own, or have holes.
@@ -50,6 +57,9 @@ impl<'a> Shading<'a> {
         let textured = Textured { scene, object, surface, hit };
         let mut shading = Shading::of(object, ray, hit, surface, material, textured.color(material.color));
         shading.opacity = material.opacity.map(|paint| textured.opacity(paint));
+        if material.glows(shading.from_outside) {
+            shading.emission = textured.emission(material);
+        }
         shading.smooth = smooth_normal(scene, surface, hit, shading.face, ray.direction);
         shading
     }
@@ -71,6 +81,7 @@ impl<'a> Shading<'a> {
             material,
             color,
             opacity: None,
+            emission: Rgb::BLACK,
             direction: ray.direction,
             face: if from_outside { surface.normal } else { -surface.normal },
             smooth: None,
@@ -193,6 +204,11 @@ impl Textured<'_> {
             }
             Colors::Particles(colors) => colors.get(self.scene.world.particle_of(self.hit)? as usize).copied(),
         }
+    }
+
+    /// What the surface gives off, on a side that does. Colors of the surface's own have no part in it.
+    fn emission(&self, material: &Material) -> Rgb {
+        material.emission.map_or(Rgb::BLACK, |glow| self.scene.textures.color(glow.color, self) * glow.strength)
     }
 
     /// From 0 to 1, whatever an image may hold.

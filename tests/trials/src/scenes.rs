@@ -9,7 +9,7 @@ use crate::Dice;
 use durer::math::{DVec3, Rgb};
 use durer::scene::{
     Antialias, Background, Camera, Falloff, Fog, Light, LightKind, Picture, PixelFilter, Projection, RenderSettings,
-    Scene, Trees,
+    Scene, Strength, Trees,
 };
 
 /// Which numbers scenes are made of.
@@ -161,7 +161,7 @@ impl Maker<'_, '_> {
             false => DVec3::new(self.dice.within(-2.0, 2.0), self.dice.within(-2.0, 2.0), self.dice.within(5.0, 8.0)),
         };
         let look_at = DVec3::new(self.dice.within(-1.0, 1.0), self.dice.within(-1.0, 1.0), 0.0);
-        Some(Camera { position, look_at, up: DVec3::new(0.1, 1.0, 0.0), projection })
+        Some(Camera { position, look_at, up: DVec3::new(0.1, 1.0, 0.0), projection, lens: None })
     }
 
     fn settings(&mut self) -> RenderSettings {
@@ -186,6 +186,7 @@ impl Maker<'_, '_> {
             antialias,
             filter,
             trees: self.dice.one_of(&[Trees::Preview, Trees::Picture, Trees::ManyRays]),
+            ..RenderSettings::default()
         }
     }
 
@@ -211,7 +212,7 @@ impl Maker<'_, '_> {
     fn light(&mut self) -> Light {
         let falloff = self.dice.one_of(&[Falloff::None, Falloff::InverseSquare]);
         let kind = match self.dice.below(3) {
-            0 => LightKind::Point { position: self.lamp(), falloff },
+            0 => LightKind::Point { position: self.lamp(), falloff, radius: 0.0 },
             1 => {
                 let edge =
                     if self.is_odd() { self.dice.one_of(&[1e-5, 90.0, 180.0]) } else { self.dice.within(20.0, 80.0) };
@@ -222,11 +223,12 @@ impl Maker<'_, '_> {
                     half_angle_degrees: edge,
                     inner_half_angle_degrees: inner,
                     falloff,
+                    radius: 0.0,
                 }
             }
             _ => LightKind::Directional { direction: self.direction() },
         };
-        Light { name: None, color: self.light_color(), intensity: self.strength(), kind }
+        Light { name: None, color: self.light_color(), strength: Strength::Classic(self.strength()), kind }
     }
 
     /// Where a light is: mostly above.

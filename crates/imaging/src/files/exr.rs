@@ -1,16 +1,17 @@
-//! OpenEXR, by the `exr` crate, on one thread: one layer of R, G and B, or of luminance alone.
+//! OpenEXR, by the `exr` crate, on one thread: one layer of R, G and B, or of luminance alone. Files of several layers are in
+//! `layers`.
+
+pub(crate) mod layers;
 
 use ::exr::error::Error;
 use ::exr::meta::header::Header;
 use ::exr::meta::{BlockDescription, MetaData};
 use ::exr::prelude::*;
-use half::f16;
 use std::io::Cursor;
 use std::result::Result;
 
-use crate::{
-    Alpha, Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, ExrSamples, FileFacts, FileFormat, Texels,
-};
+use crate::layers::Samples;
+use crate::{Alpha, Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, FileFacts, FileFormat, Texels};
 
 /// Pixels as they come in, in any order.
 struct Canvas {
@@ -160,21 +161,40 @@ fn decode_error(error: Error) -> DecodeError {
     }
 }
 
-/// Scan lines from the top, in ZIP blocks of 16.
-pub(crate) fn encode(image: &crate::Image, options: &EncodeOptions) -> Result<Vec<u8>, EncodeError> {
-    let channel = |name: &str, component: usize| {
-        let numbers = image.pixels.iter().map(|pixel| pixel.to_array()[component]);
-        let samples = match options.exr_samples {
-            ExrSamples::Float => FlatSamples::F32(numbers.collect()),
-            ExrSamples::Half => FlatSamples::F16(numbers.map(half).collect()),
-        };
-        AnyChannel::new(name, samples)
+fn flat(samples: Samples) -> FlatSamples {
+    match samples {
+        Samples::Half(numbers) => FlatSamples::F16(numbers),
+        Samples::Float(numbers) => FlatSamples::F32(numbers),
+        Samples::Whole(numbers) => FlatSamples::U32(numbers),
+    }
+}
+
+/// R, G and B, and A if there is one.
+pub(crate) fn encode(
+    image: &crate::Image,
+    alpha: Option<&[f32]>,
+    options: &EncodeOptions,
+) -> Result<Vec<u8>, EncodeError> {
+    let samples = |numbers: &mut dyn Iterator<Item = f32>| flat(Samples::of(numbers, options.exr_samples));
+    let color = |name: &str, component: usize| {
+        AnyChannel::new(name, samples(&mut image.pixels.iter().map(|pixel| pixel.to_array()[component])))
     };
-    let channels = AnyChannels::sort([channel("R", 0), channel("G", 1), channel("B", 2)].into_iter().collect());
+    let alpha = alpha.map(|alpha| AnyChannel::new("A", samples(&mut alpha.iter().copied())));
+    let channels = [color("R", 0), color("G", 1), color("B", 2)].into_iter().chain(alpha);
+    write((image.width, image.height), channels.collect(), options)
+}
+
+/// Scan lines from the top, in ZIP blocks of 16.
+fn write(
+    (width, height): (u32, u32),
+    channels: SmallVec<[AnyChannel<FlatSamples>; 4]>,
+    options: &EncodeOptions,
+) -> Result<Vec<u8>, EncodeError> {
     let encoding =
         Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
     let attributes = LayerAttributes { comments: comments(options), ..LayerAttributes::default() };
-    let layer = Layer::new((image.width as usize, image.height as usize), attributes, encoding, channels);
+    let size = (width as usize, height as usize);
+    let layer = Layer::new(size, attributes, encoding, AnyChannels::sort(channels));
     let mut bytes = Cursor::new(Vec::new());
     let written = Image::from_layer(layer).write().non_parallel().to_buffered(&mut bytes);
     written.map_err(|error| EncodeError::Failed { format: FileFormat::Exr, detail: error.to_string() })?;
@@ -190,10 +210,4 @@ fn comments(options: &EncodeOptions) -> Option<Text> {
     let lines: String = options.metadata.iter().map(|(keyword, text)| format!("{keyword}: {text}\n")).collect();
     // The crate stores a character of Latin-1 as one byte, so the bytes of UTF-8 go in as such characters.
     Text::new_or_none(lines.bytes().map(char::from).collect::<String>())
-}
-
-/// The nearest half; finite numbers stay finite.
-fn half(v: f32) -> f16 {
-    let largest = f16::MAX.to_f32();
-    f16::from_f32(if v.is_finite() { v.clamp(-largest, largest) } else { v })
 }

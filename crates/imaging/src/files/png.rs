@@ -3,7 +3,7 @@
 use ::png::{BitDepth, ColorType, Compression, DecodingError, EncodingError, SrgbRenderingIntent, Transformations};
 use std::io::{Cursor, ErrorKind};
 
-use crate::quantize::{bytes_from_linear, word_from_linear};
+use crate::quantize::{byte_from_linear, bytes_from_linear, word_from_linear};
 use crate::{
     Alpha, Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, FileFacts, FileFormat, Image, PngDepth,
     Texels, Transfer,
@@ -122,10 +122,11 @@ fn in_plain_words(message: &str) -> &'static str {
     PLAIN_WORDS.iter().find(|(part, _)| message.contains(part)).map_or("a damaged chunk", |(_, words)| words)
 }
 
-pub(crate) fn encode(image: &Image, options: &EncodeOptions) -> Result<Vec<u8>, EncodeError> {
+/// Colors are straight: not multiplied by alpha.
+pub(crate) fn encode(image: &Image, alpha: Option<&[f32]>, options: &EncodeOptions) -> Result<Vec<u8>, EncodeError> {
     let mut bytes = Vec::new();
     let mut encoder = ::png::Encoder::new(&mut bytes, image.width, image.height);
-    encoder.set_color(ColorType::Rgb);
+    encoder.set_color(if alpha.is_some() { ColorType::Rgba } else { ColorType::Rgb });
     encoder.set_depth(match options.png_depth {
         PngDepth::Eight => BitDepth::Eight,
         PngDepth::Sixteen => BitDepth::Sixteen,
@@ -138,7 +139,11 @@ pub(crate) fn encode(image: &Image, options: &EncodeOptions) -> Result<Vec<u8>, 
         add_text(&mut encoder, keyword, text)?;
     }
     let mut writer = encoder.write_header().map_err(|error| encode_error(&error))?;
-    writer.write_image_data(&samples(image, options)).map_err(|error| encode_error(&error))?;
+    let samples = match alpha {
+        Some(alpha) => samples_with_alpha(image, alpha, options),
+        None => samples(image, options),
+    };
+    writer.write_image_data(&samples).map_err(|error| encode_error(&error))?;
     writer.finish().map_err(|error| encode_error(&error))?;
     Ok(bytes)
 }
@@ -172,6 +177,23 @@ fn samples(image: &Image, options: &EncodeOptions) -> Vec<u8> {
     }
 }
 
+/// As [`samples`], with alpha as a fourth component, which knows no transfer curve.
+fn samples_with_alpha(image: &Image, alpha: &[f32], options: &EncodeOptions) -> Vec<u8> {
+    let colors = samples(image, options);
+    let (colors, alphas) = match options.png_depth {
+        PngDepth::Eight => {
+            let alphas = alpha.iter().map(|&a| byte_from_linear(a, Transfer::Linear)).collect();
+            (colors.chunks_exact(3), alphas)
+        }
+        PngDepth::Sixteen => {
+            let alphas = alpha.iter().flat_map(|&a| word_from_linear(a, Transfer::Linear).to_be_bytes());
+            (colors.chunks_exact(6), alphas.collect::<Vec<u8>>())
+        }
+    };
+    let length = alphas.len() / alpha.len().max(1);
+    colors.zip(alphas.chunks_exact(length.max(1))).flat_map(|(color, alpha)| [color, alpha].concat()).collect()
+}
+
 fn encode_error(error: &EncodingError) -> EncodeError {
     EncodeError::Failed { format: FileFormat::Png, detail: error.to_string() }
 }
@@ -201,7 +223,7 @@ mod tests {
     #[test]
     fn damage_is_told_in_plain_words() {
         let image = Image { width: 20, height: 20, pixels: vec![durer_math::Rgb::WHITE; 400] };
-        let good = encode(&image, &EncodeOptions::default()).unwrap();
+        let good = encode(&image, None, &EncodeOptions::default()).unwrap();
         assert!(decode(&good, &DecodeLimits::default()).is_ok());
         for at in 0..good.len() {
             let mut bad = good.clone();

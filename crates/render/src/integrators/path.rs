@@ -8,14 +8,13 @@
 //! As with the classic integrator, a sample is one sum of contributions that carry their full weight.
 
 use super::Integrator;
-use crate::background::background;
 use crate::bsdf::{Bsdf, How};
 use crate::compile::CompiledScene;
 use crate::emitters::Receiver;
 use crate::frame::Frame;
 use crate::holes::{Known, meet};
 use crate::media::Media;
-use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Source, SurfaceSeen};
+use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Scattering, Source, SurfaceSeen, Weighing};
 use crate::sampler::{Purpose, Sampler};
 use crate::shading::Shading;
 use crate::visibility::{MOST_SURFACES, visibility};
@@ -110,9 +109,12 @@ impl<O: Observer> Path<'_, O> {
         self.along(met.length);
         let Some(hit) = met.hit else {
             let direction = met.ray.direction;
-            let by_aiming = |aimed: &Aimed| scene.emitters.pdf_of_background(scene, &aimed.receiver, direction);
-            let part = self.state.aimed.map_or(1.0, |aimed| power_heuristic(aimed.pdf, by_aiming(&aimed)));
-            self.add(Source::Background, background(&scene.background, direction) * part as f32);
+            let seen = scene.background.seen(direction);
+            if !seen.is_black() {
+                let density = |receiver: &Receiver| scene.emitters.pdf_of_background(scene, receiver, direction);
+                let part = self.part_of_found(density);
+                self.add(Source::Background, seen * part);
+            }
             return false;
         };
         let shading = Shading::at(scene, &met.ray, &hit);
@@ -129,12 +131,12 @@ impl<O: Observer> Path<'_, O> {
             }
             self.state.weight *= opacity * (1.0 / there);
         }
-        let emission = shading.material.emission;
+        let emission = shading.emission;
         if !emission.is_black() {
-            let by_aiming =
-                |aimed: &Aimed| scene.emitters.pdf_of_hit(scene, &aimed.receiver, &met.ray, &hit, &surface, met.length);
-            let part = self.state.aimed.map_or(1.0, |aimed| power_heuristic(aimed.pdf, by_aiming(&aimed)));
-            self.add(Source::Emission, emission * part as f32);
+            let density =
+                |receiver: &Receiver| scene.emitters.pdf_of_hit(scene, receiver, &met.ray, &hit, &surface, met.length);
+            let part = self.part_of_found(density);
+            self.add(Source::Emission, emission * part);
         }
         if self.state.depth >= self.tracer.max_depth {
             self.observer.not_traced(RayKind::Reflected, self.state.weight, NotTraced::TooDeep);
@@ -158,11 +160,14 @@ impl<O: Observer> Path<'_, O> {
             return false;
         };
         self.state.weight *= scattered.weight;
-        if self.state.weight.is_black() || !self.survives() {
-            return false;
-        }
         let passes = scattered.direction.z < 0.0;
         let direction = frame.to_world(scattered.direction).normalize();
+        let pdf = if let How::Spread { pdf } = scattered.how { Some(pdf) } else { None };
+        let survival = self.survival();
+        self.observer.scattering(&Scattering { direction, pdf, weight: scattered.weight, survival });
+        if !self.survives(survival) {
+            return false;
+        }
         match scattered.how {
             How::Straight => {
                 self.pass(shading, shading.bounds_medium);
@@ -216,9 +221,20 @@ impl<O: Observer> Path<'_, O> {
         }
         if !visible.is_black() {
             let part = if light.is_point { 1.0 } else { power_heuristic(light.pdf, pdf) };
+            let by_aiming = if light.is_point { f64::INFINITY } else { light.pdf };
+            self.observer.weighing(&Weighing { by_surface: pdf, by_aiming, part });
             let arriving = light.light * visible * ((part / light.pdf) as f32);
             self.add(Source::Light(light.lamp), scattered * arriving);
         }
+    }
+
+    /// What light counts that the last segment has found, if by aiming it is found with this density from a receiver.
+    fn part_of_found(&mut self, density: impl FnOnce(&Receiver) -> f64) -> f32 {
+        let Some(Aimed { receiver, pdf }) = self.state.aimed else { return 1.0 };
+        let by_aiming = density(&receiver);
+        let part = power_heuristic(pdf, by_aiming);
+        self.observer.weighing(&Weighing { by_surface: pdf, by_aiming, part });
+        part as f32
     }
 
     /// Goes on straight, as if there were no surface. It stays the same segment of the path, for light that was aimed at
@@ -230,12 +246,20 @@ impl<O: Observer> Path<'_, O> {
         (self.state.kind, self.state.ray) = (RayKind::Transmitted, shading.ray_on(shading.direction));
     }
 
+    /// The chance of a path of this weight to go on.
+    fn survival(&self) -> f32 {
+        let weight = self.state.weight.max_component();
+        match self.state.depth {
+            depth if depth < FIRST_ROULETTE && weight > 0.0 => 1.0,
+            _ => weight.min(MOST_LIKELY),
+        }
+    }
+
     /// Russian roulette: paths that count little end, others count the more.
-    fn survives(&mut self) -> bool {
-        if self.state.depth < FIRST_ROULETTE {
+    fn survives(&mut self, chance: f32) -> bool {
+        if chance == 1.0 {
             return true;
         }
-        let chance = self.state.weight.max_component().min(MOST_LIKELY);
         if self.sampler.one(self.step(), Purpose::Roulette) >= f64::from(chance) {
             self.observer.not_traced(RayKind::Reflected, self.state.weight, NotTraced::TooFaint);
             return false;
@@ -288,7 +312,14 @@ fn power_heuristic(first: f64, second: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::compile::compile;
-    use durer_scene::{Background, Light, LightKind, Material, Object, ObjectKind, Paint, Scene, Shape};
+    use durer_scene::{
+        Background, Emission, Light, LightKind, Material, MaterialKind, Matte, Object, ObjectKind, Paint, Scene, Shape,
+        Strength,
+    };
+
+    fn matte(color: Rgb) -> Material {
+        Material::of(MaterialKind::Matte(Matte { color: Paint::Color(color), ..Matte::default() }))
+    }
 
     fn mean(scene: &CompiledScene, samples: u32) -> Rgb {
         let tracer = PathTracer { max_depth: 1000, clamp: None };
@@ -304,8 +335,7 @@ mod tests {
     #[test]
     fn a_furnace_glows_as_its_series_says() {
         let color = Rgb::new(0.2, 0.5, 0.8);
-        let material =
-            Material { color: Paint::Color(color), diffuse: 1.0, emission: Rgb::gray(1.0), ..Material::default() };
+        let material = Material { emission: Emission::of(Rgb::WHITE), ..matte(color) };
         let ball = Object {
             material: Some(durer_scene::MaterialId(0)),
             ..Object::new(ObjectKind::Shape(Shape::Sphere { center: durer_math::DVec3::ZERO, radius: 3.0 }))
@@ -327,7 +357,7 @@ mod tests {
     /// Under a white sky a convex white body looks white.
     #[test]
     fn a_white_ball_vanishes_in_a_white_sky() {
-        let material = Material { color: Paint::Color(Rgb::WHITE), diffuse: 1.0, ..Material::default() };
+        let material = matte(Rgb::WHITE);
         let ball = Object {
             material: Some(durer_scene::MaterialId(0)),
             ..Object::new(ObjectKind::Shape(Shape::Sphere { center: durer_math::DVec3::NEG_Z * 5.0, radius: 1.0 }))
@@ -349,7 +379,7 @@ mod tests {
     #[test]
     fn lamps_are_as_bright_as_classic_ones() {
         let kind = LightKind::Directional { direction: durer_math::DVec3::NEG_Z };
-        let lamp = Light { name: None, color: Rgb::WHITE, intensity: 0.5, kind };
+        let lamp = Light { name: None, color: Rgb::WHITE, strength: Strength::Classic(0.5), kind };
         let (point, normal) = (durer_math::DVec3::NEG_Z * 5.0, durer_math::DVec3::Z);
         let wall = Object::new(ObjectKind::Shape(Shape::Plane { point, normal }));
         let background = Background::Color(Rgb::BLACK);

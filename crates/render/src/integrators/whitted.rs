@@ -5,7 +5,6 @@
 //! their sum, in the order of the list, is the pixel to the last bit.
 
 use super::Integrator;
-use crate::background::background;
 use crate::compile::CompiledScene;
 use crate::holes::{Known, meet};
 use crate::materials::refract;
@@ -60,7 +59,7 @@ impl<O: Observer> Path<'_, O> {
         let met = meet(self.scene, ray, known, self.observer);
         let weight = self.along(met.length, weight);
         match met.hit {
-            None => self.add(Source::Background, weight * background(&self.scene.background, ray.direction)),
+            None => self.add(Source::Background, weight * self.scene.background.seen(ray.direction)),
             Some(hit) => {
                 let shading = Shading::at(self.scene, &met.ray, &hit);
                 let Shading { surface, color, opacity, from_outside, .. } = shading;
@@ -97,8 +96,8 @@ impl<O: Observer> Path<'_, O> {
     #[inline(always)]
     fn shade(&mut self, shading: &Shading<'_>, weight: Rgb) {
         let material = shading.material;
-        if !material.emission.is_black() {
-            self.add(Source::Emission, weight * material.emission);
+        if !shading.emission.is_black() {
+            self.add(Source::Emission, weight * shading.emission);
         }
         let weight = weight * (Rgb::WHITE - material.transparency);
         if weight.is_black() {

@@ -4,8 +4,8 @@ use super::{MATERIALS, Maker, TEXTURES};
 use durer::imaging::{Alpha, Bitmap, Texels};
 use durer::math::Rgb;
 use durer::scene::{
-    Attenuation, Channels, Encoding, Filter, ImageAsset, ImageId, ImageTexture, Mapping, Material, MaterialId, Paint,
-    Pattern, Space, Texture, TextureId, Wrap,
+    Attenuation, Channels, Classic, Emission, Encoding, Filter, ImageAsset, ImageId, ImageTexture, Mapping, Material,
+    MaterialId, MaterialKind, Paint, Pattern, Space, Texture, TextureId, Wrap,
 };
 use std::sync::Arc;
 
@@ -37,8 +37,7 @@ impl Maker<'_, '_> {
             }
             false => None,
         };
-        Material {
-            name: None,
+        let classic = Classic {
             color: self.paint(TEXTURES),
             ambient: self.strength(),
             diffuse: self.strength(),
@@ -53,8 +52,11 @@ impl Maker<'_, '_> {
             ior: self.option(|maker| maker.ior()),
             fresnel: self.dice.one_in(2),
             attenuation,
-            emission: if self.dice.one_in(4) { self.light_color() } else { Rgb::BLACK },
+        };
+        Material {
+            emission: if self.dice.one_in(4) { Emission::of(self.light_color()) } else { Emission::NONE },
             opacity: if self.dice.one_in(3) { self.paint(TEXTURES) } else { Paint::Color(Rgb::WHITE) },
+            ..Material::of(MaterialKind::Classic(classic))
         }
     }
 

@@ -17,7 +17,7 @@ pub fn scaled(mut scene: Scene, factor: f64) -> Scene {
         Fog::Exponential { color, distance } => Fog::Exponential { color, distance: distance * factor },
         Fog::Linear { color, start, end } => Fog::Linear { color, start: start * factor, end: end * factor },
     });
-    for attenuation in scene.materials.iter_mut().filter_map(|material| material.attenuation.as_mut()) {
+    for attenuation in scene.materials.iter_mut().filter_map(|material| material.attenuation_mut()) {
         attenuation.distance *= factor;
     }
     scene
@@ -107,21 +107,23 @@ fn seen(camera: &Camera, map: &DAffine3) -> Camera {
         look_at: map.transform_point3(camera.look_at),
         up: direction(&map.matrix3, camera.up),
         projection: camera.projection,
+        lens: camera.lens,
     }
 }
 
 fn lit(light: Light, map: &DAffine3) -> Light {
     let kind = match light.kind {
-        LightKind::Point { position, falloff } => {
-            LightKind::Point { position: map.transform_point3(position), falloff }
+        LightKind::Point { position, falloff, radius } => {
+            LightKind::Point { position: map.transform_point3(position), falloff, radius }
         }
-        LightKind::Spot { position, target, half_angle_degrees, inner_half_angle_degrees, falloff } => {
+        LightKind::Spot { position, target, half_angle_degrees, inner_half_angle_degrees, falloff, radius } => {
             LightKind::Spot {
                 position: map.transform_point3(position),
                 target: map.transform_point3(target),
                 half_angle_degrees,
                 inner_half_angle_degrees,
                 falloff,
+                radius,
             }
         }
         LightKind::Directional { direction: towards } => {
@@ -141,6 +143,6 @@ fn brighter(light: Light, factor: f64) -> Light {
         LightKind::Point { falloff, .. } | LightKind::Spot { falloff, .. } => falloff == Falloff::InverseSquare,
         LightKind::Directional { .. } => false,
     };
-    let intensity = if weakens { light.intensity * (factor * factor) as f32 } else { light.intensity };
-    Light { intensity, ..light }
+    let more = if weakens { (factor * factor) as f32 } else { 1.0 };
+    Light { strength: light.strength.with_amount(light.strength.amount() * more), ..light }
 }

@@ -3,7 +3,10 @@
 use super::{Explained, words};
 use crate::labels;
 use durer::math::{DVec3, Rgb};
-use durer::{Contribution, HitExplanation, HoleExplanation, LightExplanation, RayExplanation, SampleExplanation};
+use durer::{
+    Contribution, HitExplanation, HoleExplanation, LightExplanation, RayExplanation, SampleExplanation, Scattering,
+    Weighing,
+};
 use serde_json::{Value, json};
 
 impl Explained<'_> {
@@ -42,6 +45,7 @@ impl Explained<'_> {
             "holes": ray.holes.iter().map(|hole| self.hole_json(hole)).collect::<Vec<_>>(),
             "hit": ray.hit.as_ref().map(|hit| self.hit_json(hit)),
             "lights": ray.lights.iter().map(|light| self.light_json(light)).collect::<Vec<_>>(),
+            "scattering": ray.scattering.as_ref().map(scattering),
             "contributions": ray.contributions.iter().map(contribution).collect::<Vec<_>>(),
             "not_traced": not_traced.collect::<Vec<_>>(),
             "children": ray.children.iter().map(|child| self.ray_json(child)).collect::<Vec<_>>(),
@@ -95,6 +99,18 @@ fn contribution(contribution: &Contribution) -> Value {
         "source": words::source_key(contribution.source),
         "light": words::light_of(contribution.source),
         "amount": rgb(contribution.amount),
+        "weighing": contribution.weighing.map(|Weighing { by_surface, by_aiming, part }| {
+            json!({ "pdf_surface": by_surface, "pdf_light": by_aiming, "mis_weight": part })
+        }),
+    })
+}
+
+fn scattering(scattering: &Scattering) -> Value {
+    json!({
+        "direction": xyz(scattering.direction),
+        "pdf": scattering.pdf,
+        "weight": rgb(scattering.weight),
+        "survival": scattering.survival,
     })
 }
 

@@ -7,7 +7,10 @@ use crate::labels;
 use crate::numbers::{color, count, short, vector};
 use durer::imaging::Transfer;
 use durer::math::Rgb;
-use durer::{HitExplanation, LightExplanation, NotTraced, RayExplanation, RayKind, SampleExplanation};
+use durer::{
+    Contribution, HitExplanation, LightExplanation, NotTraced, RayExplanation, RayKind, SampleExplanation, Scattering,
+    Weighing,
+};
 
 impl Explained<'_> {
     /// The whole explanation.
@@ -83,14 +86,23 @@ impl Explained<'_> {
             None => page.line("hits nothing"),
         }
         for contribution in ray.contributions.iter().filter(|c| words::light_of(c.source).is_none()) {
-            page.amount(words::source(contribution.source), contribution.amount);
+            page.amount(&with_weighing(words::source(contribution.source), contribution), contribution.amount);
         }
         for light in &ray.lights {
             page.line(&self.light(light));
             let from_it = ray.contributions.iter().filter(|c| words::light_of(c.source) == Some(light.light));
             for contribution in from_it {
-                page.amount(&format!("  {}", words::source(contribution.source)), contribution.amount);
+                let source = format!("  {}", words::source(contribution.source));
+                page.amount(&with_weighing(&source, contribution), contribution.amount);
             }
+        }
+        if let Some(Scattering { direction, pdf, weight, survival }) = &ray.scattering {
+            let density = pdf.map_or_else(|| "the only direction".to_owned(), |pdf| format!("density {}", short(pdf)));
+            let chance = match survival {
+                1.0 => String::new(),
+                survival => format!(", with a chance of {}", short(f64::from(*survival))),
+            };
+            page.line(&format!("goes on towards {}, {density}, × {}{chance}", vector(*direction), color(*weight)));
         }
     }
 
@@ -155,6 +167,19 @@ impl Explained<'_> {
             };
             page.line(&format!("In a PNG of 8 bits ({transfer}): {r} {g} {b}, that is #{r:02x}{g:02x}{b:02x}."));
         }
+    }
+}
+
+/// A source, and what it counts if light can be found in two ways.
+fn with_weighing(source: &str, contribution: &Contribution) -> String {
+    match contribution.weighing {
+        None => source.to_owned(),
+        Some(Weighing { by_surface, by_aiming, part }) => format!(
+            "{source}, of which this way counts {} (densities: surface {}, light {})",
+            short(part),
+            short(by_surface),
+            short(by_aiming)
+        ),
     }
 }
 

@@ -5,7 +5,7 @@ use super::images::{Images, TextureUse};
 use super::source::Source;
 use super::value::Value;
 use durer_math::Rgb;
-use durer_scene::{Attenuation, Encoding, Material, MaterialId, Paint};
+use durer_scene::{Attenuation, Classic, Emission, Encoding, Material, MaterialId, MaterialKind, Paint};
 use std::collections::HashMap;
 
 /// The materials that are used, with their textures.
@@ -71,10 +71,12 @@ impl Materials {
         };
         // The mean takes a look at every pixel.
         let metal = if surface.metallic > 0.0 { self.mean_base(source, &surface)? } else { Rgb::BLACK };
-        let mut material = Material { color, ..classic(&surface, metal) };
+        let mut material = Classic { color, ..classic(&surface, metal) };
         self.add_transmission(source, value, &surface, &mut material)?;
-        self.add_alpha(source, value, &surface, &mut material)?;
-        self.add_emission(source, value, &surface, &mut material)?;
+        let opacity = self.add_alpha(source, value, &surface, &mut material)?;
+        let emission = Emission::of(self.emission(source, value, &surface)?);
+        let material = Material::of(MaterialKind::Classic(material));
+        let material = Material { opacity: opacity.unwrap_or(material.opacity), emission, ..material };
         let has_texture = surface.texture.is_some();
         let finish = Finish {
             id: MaterialId(self.list.len() as u32),
@@ -122,7 +124,7 @@ impl Materials {
         source: &Source<'a>,
         value: &Value<'a>,
         surface: &Surface,
-        material: &mut Material,
+        material: &mut Classic,
     ) -> Result<(), ModelError> {
         let Some(extension) = value.extension("KHR_materials_transmission")? else { return Ok(()) };
         let transmission = fraction(&extension, "transmissionFactor", 0.0)? * (1.0 - surface.metallic);
@@ -148,14 +150,15 @@ impl Materials {
         Ok(())
     }
 
-    /// `alphaMode`: all there is; or by degrees, from the factor as transparency and from the texture as opacity.
+    /// `alphaMode`: all there is; or by degrees, from the factor as transparency and from the texture as opacity. Gives the
+    /// opacity, if it is not that of a whole surface.
     fn add_alpha<'a>(
         &mut self,
         source: &Source<'a>,
         value: &Value<'a>,
         surface: &Surface,
-        material: &mut Material,
-    ) -> Result<(), ModelError> {
+        material: &mut Classic,
+    ) -> Result<Option<Paint>, ModelError> {
         let alpha = surface.alpha;
         match value.text("alphaMode")? {
             None | Some("OPAQUE") => {}
@@ -164,10 +167,10 @@ impl Materials {
                     Some(texture) => self.images.alpha(source, texture, alpha)?,
                     None => None,
                 };
-                match by_texture {
-                    Some(opacity) => material.opacity = opacity,
-                    None => material.transparency = material.transparency * alpha + Rgb::gray(1.0 - alpha),
+                if by_texture.is_some() {
+                    return Ok(by_texture);
                 }
+                material.transparency = material.transparency * alpha + Rgb::gray(1.0 - alpha);
             }
             Some("MASK") => {
                 let cutoff = value.number("alphaCutoff")?.unwrap_or(0.5) as f32;
@@ -175,27 +178,17 @@ impl Materials {
                     Some(texture) if alpha > 0.0 => self.images.mask(source, texture, cutoff / alpha)?,
                     _ => None,
                 };
-                match by_texture {
-                    Some(opacity) => material.opacity = opacity,
-                    None if alpha < cutoff => material.opacity = Paint::Color(Rgb::BLACK),
-                    None => {}
-                }
+                return Ok(by_texture.or((alpha < cutoff).then_some(Paint::Color(Rgb::BLACK))));
             }
             Some(_) => return Err(value.fault("alphaMode must be OPAQUE, MASK or BLEND")),
         }
-        Ok(())
+        Ok(None)
     }
 
     /// `emissiveFactor` and KHR_materials_emissive_strength.
-    fn add_emission<'a>(
-        &mut self,
-        source: &Source<'a>,
-        value: &Value<'a>,
-        surface: &Surface,
-        material: &mut Material,
-    ) -> Result<(), ModelError> {
+    fn emission<'a>(&mut self, source: &Source<'a>, value: &Value<'a>, surface: &Surface) -> Result<Rgb, ModelError> {
         if surface.unlit {
-            return Ok(());
+            return Ok(Rgb::BLACK);
         }
         let [r, g, b] = value.numbers("emissiveFactor")?.unwrap_or([0.0; 3]);
         let strength = match value.extension("KHR_materials_emissive_strength")? {
@@ -204,16 +197,15 @@ impl Materials {
         };
         let factor = Rgb::from([r, g, b].map(|factor| (factor * strength).clamp(0.0, BRIGHTEST) as f32));
         if factor.is_black() {
-            return Ok(());
+            return Ok(Rgb::BLACK);
         }
-        material.emission = match TextureUse::of(source, value, "emissiveTexture")? {
+        Ok(match TextureUse::of(source, value, "emissiveTexture")? {
             Some(texture) => {
                 source.notes.add("only the mean of emissive textures is used", value.place);
                 factor * self.images.mean(source, &texture, Encoding::Srgb)?
             }
             None => factor,
-        };
-        Ok(())
+        })
     }
 }
 
@@ -235,17 +227,17 @@ fn specular_glossiness<'a>(source: &Source<'a>, glossy: &Value<'a>, unlit: bool)
 }
 
 /// Everything that follows from metal, with its mean color, and roughness alone.
-fn classic(surface: &Surface, metal: Rgb) -> Material {
+fn classic(surface: &Surface, metal: Rgb) -> Classic {
     let &Surface { metallic, roughness, reflectance, unlit, .. } = surface;
-    let default = Material::default();
+    let default = Classic::default();
     if unlit {
-        return Material { ambient: 1.0, diffuse: 0.0, ..default };
+        return Classic { ambient: 1.0, diffuse: 0.0, ..default };
     }
     let smooth = (1.0 - roughness) * (1.0 - roughness);
     let shininess = shininess(roughness);
     let diffuse = 1.0 - metallic * smooth;
     let reflection = reflectance.lerp(metal, metallic) * smooth;
-    Material {
+    Classic {
         ambient: default.ambient * diffuse,
         diffuse,
         specular: highlight(reflectance, shininess).lerp(metal * (1.0 - roughness), metallic),

@@ -4,7 +4,8 @@ use super::build::File;
 use super::{fault, only_mesh, read};
 use durer_math::{DVec3, Rgb};
 use durer_scene::{
-    Channels, Encoding, Filter, ImageTexture, Material, Paint, Pattern, Scene, Texture, TextureId, Wrap,
+    Channels, Classic, Emission, Encoding, Filter, ImageTexture, Material, MaterialKind, Paint, Pattern, Scene,
+    Texture, TextureId, Wrap,
 };
 use serde_json::{Value, json};
 
@@ -38,11 +39,25 @@ fn near(a: Rgb, b: Rgb) -> bool {
 fn matte_plastic() {
     let pbr = json!({ "baseColorFactor": [0.5, 0.25, 1, 1], "metallicFactor": 0, "roughnessFactor": 1 });
     let material = material_of(json!({ "pbrMetallicRoughness": pbr }));
-    assert_eq!(material.color, Paint::Color(Rgb::new(0.5, 0.25, 1.0)));
-    assert_eq!((material.diffuse, material.ambient, material.shininess), (1.0, 0.2, 1.0));
+    assert_eq!(material.as_classic().unwrap().color, Paint::Color(Rgb::new(0.5, 0.25, 1.0)));
+    assert_eq!(
+        (
+            material.as_classic().unwrap().diffuse,
+            material.as_classic().unwrap().ambient,
+            material.as_classic().unwrap().shininess
+        ),
+        (1.0, 0.2, 1.0)
+    );
     // 0.04 · (1 + 2) / 2
-    assert!(near(material.specular, Rgb::gray(0.06)), "{:?}", material.specular);
-    assert_eq!((material.reflection, material.transparency, material.emission), Default::default());
+    assert!(
+        near(material.as_classic().unwrap().specular, Rgb::gray(0.06)),
+        "{:?}",
+        material.as_classic().unwrap().specular
+    );
+    assert_eq!(
+        (material.as_classic().unwrap().reflection, material.as_classic().unwrap().transparency, material.emission),
+        Default::default()
+    );
     assert_eq!(material.opacity, Paint::Color(Rgb::WHITE));
 }
 
@@ -51,21 +66,35 @@ fn glossy_plastic() {
     let pbr = json!({ "metallicFactor": 0, "roughnessFactor": 0.2 });
     let material = material_of(json!({ "pbrMetallicRoughness": pbr }));
     // α = 0.04: (1/0.0016 - 1)/2
-    assert!((material.shininess - 312.0).abs() < 0.01, "{}", material.shininess);
-    assert!(near(material.specular, Rgb::WHITE));
-    assert!(near(material.reflection, Rgb::gray(0.04 * 0.64)));
-    assert_eq!(material.diffuse, 1.0);
+    assert!(
+        (material.as_classic().unwrap().shininess - 312.0).abs() < 0.01,
+        "{}",
+        material.as_classic().unwrap().shininess
+    );
+    assert!(near(material.as_classic().unwrap().specular, Rgb::WHITE));
+    assert!(near(material.as_classic().unwrap().reflection, Rgb::gray(0.04 * 0.64)));
+    assert_eq!(material.as_classic().unwrap().diffuse, 1.0);
 }
 
 #[test]
 fn metal() {
     let gold = json!({ "baseColorFactor": [1, 0.75, 0.5, 1], "roughnessFactor": 0.5 });
     let material = material_of(json!({ "pbrMetallicRoughness": gold }));
-    assert!(near(material.reflection, Rgb::new(0.25, 0.1875, 0.125)));
-    assert!(near(material.specular, Rgb::new(0.5, 0.375, 0.25)));
-    assert!((material.diffuse - 0.75).abs() < 1e-6 && (material.ambient - 0.15).abs() < 1e-6);
+    assert!(near(material.as_classic().unwrap().reflection, Rgb::new(0.25, 0.1875, 0.125)));
+    assert!(near(material.as_classic().unwrap().specular, Rgb::new(0.5, 0.375, 0.25)));
+    assert!(
+        (material.as_classic().unwrap().diffuse - 0.75).abs() < 1e-6
+            && (material.as_classic().unwrap().ambient - 0.15).abs() < 1e-6
+    );
     let mirror = material_of(json!({ "pbrMetallicRoughness": { "roughnessFactor": 0 } }));
-    assert_eq!((mirror.reflection, mirror.diffuse, mirror.shininess), (Rgb::WHITE, 0.0, 10_000.0));
+    assert_eq!(
+        (
+            mirror.as_classic().unwrap().reflection,
+            mirror.as_classic().unwrap().diffuse,
+            mirror.as_classic().unwrap().shininess
+        ),
+        (Rgb::WHITE, 0.0, 10_000.0)
+    );
 }
 
 #[test]
@@ -77,9 +106,16 @@ fn glass_with_a_thickness_refracts() {
         "KHR_materials_ior": { "ior": 1.25 },
         "KHR_materials_volume": volume,
     }}));
-    assert_eq!((glass.transparency, glass.ior, glass.fresnel), (Rgb::WHITE, Some(1.25), true));
-    assert_eq!((glass.diffuse, glass.reflection), (0.0, Rgb::BLACK));
-    let attenuation = glass.attenuation.unwrap();
+    assert_eq!(
+        (
+            glass.as_classic().unwrap().transparency,
+            glass.as_classic().unwrap().ior,
+            glass.as_classic().unwrap().fresnel
+        ),
+        (Rgb::WHITE, Some(1.25), true)
+    );
+    assert_eq!((glass.as_classic().unwrap().diffuse, glass.as_classic().unwrap().reflection), (0.0, Rgb::BLACK));
+    let attenuation = glass.as_classic().unwrap().attenuation.unwrap();
     assert_eq!((attenuation.color, attenuation.distance), (Rgb::new(0.5, 1.0, 1e-4), 2.0));
 }
 
@@ -89,11 +125,14 @@ fn glass_without_thickness_is_a_sheet() {
     let sheet = material_of(json!({ "pbrMetallicRoughness": pbr, "extensions": {
         "KHR_materials_transmission": { "transmissionFactor": 0.5 },
     }}));
-    assert!(near(sheet.transparency, Rgb::new(0.5, 0.25, 0.25)));
-    assert_eq!((sheet.ior, sheet.fresnel, sheet.attenuation), (None, false, None));
-    assert!(near(sheet.reflection, Rgb::gray(0.04)));
+    assert!(near(sheet.as_classic().unwrap().transparency, Rgb::new(0.5, 0.25, 0.25)));
+    assert_eq!(
+        (sheet.as_classic().unwrap().ior, sheet.as_classic().unwrap().fresnel, sheet.as_classic().unwrap().attenuation),
+        (None, false, None)
+    );
+    assert!(near(sheet.as_classic().unwrap().reflection, Rgb::gray(0.04)));
     // What is left of the surface itself is to be half: 0.5 / (1 - 0.303).
-    assert!((sheet.diffuse - 0.717_46).abs() < 1e-4, "{}", sheet.diffuse);
+    assert!((sheet.as_classic().unwrap().diffuse - 0.717_46).abs() < 1e-4, "{}", sheet.as_classic().unwrap().diffuse);
 }
 
 #[test]
@@ -104,7 +143,7 @@ fn a_different_reflectance() {
         "KHR_materials_ior": { "ior": 3 },
         "KHR_materials_specular": specular,
     }}));
-    assert!(near(material.reflection, Rgb::new(0.125, 0.25, 0.5)));
+    assert!(near(material.as_classic().unwrap().reflection, Rgb::new(0.125, 0.25, 0.5)));
 }
 
 #[test]
@@ -115,8 +154,11 @@ fn specular_and_glossiness() {
         "glossinessFactor": 0.5,
     });
     let material = material_of(json!({ "extensions": { "KHR_materials_pbrSpecularGlossiness": extension } }));
-    assert_eq!((material.color, material.diffuse), (Paint::Color(Rgb::gray(0.5)), 1.0));
-    assert!(near(material.reflection, Rgb::new(0.25, 0.125, 0.0625)));
+    assert_eq!(
+        (material.as_classic().unwrap().color, material.as_classic().unwrap().diffuse),
+        (Paint::Color(Rgb::gray(0.5)), 1.0)
+    );
+    assert!(near(material.as_classic().unwrap().reflection, Rgb::new(0.25, 0.125, 0.0625)));
 }
 
 #[test]
@@ -124,8 +166,8 @@ fn unlit_materials_show_their_color() {
     let pbr = json!({ "baseColorFactor": [0.5, 0.25, 1, 1] });
     let unlit = material_of(json!({ "pbrMetallicRoughness": pbr, "extensions": { "KHR_materials_unlit": {} } }));
     let expected =
-        Material { color: Paint::Color(Rgb::new(0.5, 0.25, 1.0)), ambient: 1.0, diffuse: 0.0, ..Material::default() };
-    assert_eq!(unlit, expected);
+        Classic { color: Paint::Color(Rgb::new(0.5, 0.25, 1.0)), ambient: 1.0, diffuse: 0.0, ..Classic::default() };
+    assert_eq!(unlit, Material::of(MaterialKind::Classic(expected)));
 }
 
 #[test]
@@ -134,7 +176,7 @@ fn emission() {
         "emissiveFactor": [1, 0.5, 0],
         "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 8 } },
     }));
-    assert_eq!(material.emission, Rgb::new(8.0, 4.0, 0.0));
+    assert_eq!(material.emission, Emission::of(Rgb::new(8.0, 4.0, 0.0)));
 }
 
 #[test]
@@ -152,9 +194,10 @@ fn textures_of_which_only_the_mean_is_used() {
     }));
     let model = read(&file);
     let material = &model.scene.materials[0];
-    assert!(near(material.emission, Rgb::new(1.0, 0.5, 0.0)));
+    let Paint::Color(emission) = material.emission.color else { panic!("{:?}", material.emission) };
+    assert!(near(emission, Rgb::new(1.0, 0.5, 0.0)));
     // Roughness (0.2 + 0.6)/2, metal 0.5: 1 - 0.5 · 0.6²
-    assert!((material.diffuse - 0.82).abs() < 1e-6, "{}", material.diffuse);
+    assert!((material.as_classic().unwrap().diffuse - 0.82).abs() < 1e-6, "{}", material.as_classic().unwrap().diffuse);
     assert!(model.scene.images.is_empty() && model.scene.textures.is_empty());
     assert_eq!(model.warnings.len(), 4, "{:?}", model.warnings);
     assert!(model.warnings.iter().all(|warning| warning.ends_with("(materials[0])")));
@@ -170,14 +213,14 @@ fn base_color_textures() {
     let pbr = json!({ "baseColorFactor": [1, 0.5, 0.5, 0.5], "baseColorTexture": { "index": texture } });
     file.show_triangle(json!({ "pbrMetallicRoughness": pbr }));
     let model = read(&file);
-    let (texture, image) = texture_of(&model.scene, model.scene.materials[0].color);
+    let (texture, image) = texture_of(&model.scene, model.scene.materials[0].as_classic().unwrap().color);
     assert_eq!((image.wrap, image.filter, image.encoding), (Wrap::Clamp, Filter::Nearest, Encoding::Srgb));
     assert_eq!((image.tint, image.channels), (Rgb::new(1.0, 0.5, 0.5), Channels::Color));
     assert!(texture.transform.steps.is_empty());
     assert_eq!(model.scene.images[0].file, "model.gltf#images[0]");
     // Opaque, whatever alpha says.
     assert_eq!(model.scene.materials[0].opacity, Paint::Color(Rgb::WHITE));
-    assert_eq!(model.scene.materials[0].transparency, Rgb::BLACK);
+    assert_eq!(model.scene.materials[0].as_classic().unwrap().transparency, Rgb::BLACK);
     assert!(model.warnings.is_empty());
 }
 
@@ -213,7 +256,7 @@ fn texture_transforms() {
         let texture = json!({ "index": texture, "extensions": { "KHR_texture_transform": transform } });
         file.show_triangle(json!({ "pbrMetallicRoughness": { "baseColorTexture": texture } }));
         let scene = read(&file).scene;
-        texture_of(&scene, scene.materials[0].color).0.clone()
+        texture_of(&scene, scene.materials[0].as_classic().unwrap().color).0.clone()
     };
     let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs() < 1e-9 && (a[1] - b[1]).abs() < 1e-9;
     let moved = with(json!({ "offset": [0.25, 0.5], "scale": [2, 4] }));
@@ -245,16 +288,16 @@ fn with_alpha(mode: &str, factor: f32, alpha: u8) -> (File, Scene) {
 fn blended_alpha() {
     let pbr = json!({ "baseColorFactor": [1, 1, 1, 0.25] });
     let plain = material_of(json!({ "pbrMetallicRoughness": pbr, "alphaMode": "BLEND" }));
-    assert_eq!((plain.transparency, plain.opacity), (Rgb::gray(0.75), Paint::Color(Rgb::WHITE)));
+    assert_eq!((plain.as_classic().unwrap().transparency, plain.opacity), (Rgb::gray(0.75), Paint::Color(Rgb::WHITE)));
 
     let (_, scene) = with_alpha("BLEND", 0.5, 100);
-    assert_eq!(scene.materials[0].transparency, Rgb::BLACK);
+    assert_eq!(scene.materials[0].as_classic().unwrap().transparency, Rgb::BLACK);
     let (_, image) = texture_of(&scene, scene.materials[0].opacity);
     assert_eq!((image.channels, image.tint, image.image.0), (Channels::Alpha, Rgb::gray(0.5), 0));
 
     // An image without alpha needs no opacity.
     let (_, scene) = with_alpha("BLEND", 0.5, 255);
-    assert_eq!((scene.textures.len(), scene.materials[0].transparency), (1, Rgb::gray(0.5)));
+    assert_eq!((scene.textures.len(), scene.materials[0].as_classic().unwrap().transparency), (1, Rgb::gray(0.5)));
 }
 
 #[test]
@@ -295,6 +338,6 @@ fn images_that_cannot_be_used() {
     assert_eq!(fault(&remote), "images[0]: `http:` addresses are not followed");
     let compressed = with(&|file| file.json["textures"][0] = json!({}));
     let model = read(&compressed);
-    assert_eq!(model.scene.materials[0].color, Paint::Color(Rgb::WHITE));
+    assert_eq!(model.scene.materials[0].as_classic().unwrap().color, Paint::Color(Rgb::WHITE));
     assert!(model.warnings[0].starts_with("textures are left out that have no PNG or JPEG image"));
 }
