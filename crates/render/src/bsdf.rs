@@ -39,6 +39,8 @@ pub(crate) enum Bsdf {
     /// A mirror of this color at all angles.
     Mirror(Rgb),
     Dielectric(Dielectric),
+    /// A boundary between media that bend light alike: all goes straight on, takes on this color, and shadow rays do not know.
+    Clear(Rgb),
     Sheet(Sheet),
     Plastic(Plastic),
     Classic(Classic),
@@ -76,7 +78,8 @@ impl Bsdf {
     pub(crate) fn is_specular(&self) -> bool {
         match self {
             Bsdf::Diffuse(_) | Bsdf::OrenNayar(_) => false,
-            Bsdf::Mirror(_) | Bsdf::Sheet(_) => true,
+            Bsdf::Mirror(_) | Bsdf::Clear(_) => true,
+            Bsdf::Sheet(sheet) => sheet.is_specular(),
             Bsdf::Conductor(conductor) => conductor.is_specular(),
             Bsdf::Dielectric(dielectric) => dielectric.is_specular(),
             Bsdf::Plastic(plastic) => plastic.is_specular(),
@@ -97,7 +100,8 @@ impl Bsdf {
             }
             Bsdf::OrenNayar(_) if toward.z < 0.0 => (Rgb::BLACK, 0.0),
             Bsdf::OrenNayar(rough) => (rough.evaluate(out, toward), cosine_pdf(toward.z)),
-            Bsdf::Mirror(_) | Bsdf::Sheet(_) => (Rgb::BLACK, 0.0),
+            Bsdf::Mirror(_) | Bsdf::Clear(_) => (Rgb::BLACK, 0.0),
+            Bsdf::Sheet(sheet) => sheet.evaluate(out, toward),
             Bsdf::Conductor(conductor) => conductor.evaluate(out, toward),
             Bsdf::Dielectric(dielectric) => dielectric.evaluate(out, toward),
             Bsdf::Plastic(plastic) => plastic.evaluate(out, toward),
@@ -122,7 +126,8 @@ impl Bsdf {
                 Scattered::spread(direction, rough.evaluate(out, direction), cosine_pdf(direction.z))?
             }
             Bsdf::Mirror(color) => Scattered::mirrored(out, *color),
-            Bsdf::Sheet(sheet) => sheet.sample(out, lobe),
+            Bsdf::Clear(tint) => Scattered { direction: -out, weight: *tint, how: How::Only, scale: 1.0 },
+            Bsdf::Sheet(sheet) => sheet.sample(out, lobe, at)?,
             Bsdf::Conductor(conductor) => conductor.sample(out, lobe, at)?,
             Bsdf::Dielectric(dielectric) => dielectric.sample(out, lobe, at)?,
             Bsdf::Plastic(plastic) => plastic.sample(out, lobe, at)?,
@@ -137,6 +142,7 @@ impl Bsdf {
             Bsdf::Diffuse(_)
             | Bsdf::OrenNayar(_)
             | Bsdf::Mirror(_)
+            | Bsdf::Clear(_)
             | Bsdf::Conductor(_)
             | Bsdf::Dielectric(_)
             | Bsdf::Plastic(_) => Rgb::BLACK,
@@ -148,7 +154,7 @@ impl Bsdf {
     /// The part of white light from everywhere that is scattered to `out`, about: the albedo of layers for denoisers.
     pub(crate) fn albedo(&self, out: DVec3) -> Rgb {
         match self {
-            Bsdf::Diffuse(color) | Bsdf::Mirror(color) => *color,
+            Bsdf::Diffuse(color) | Bsdf::Mirror(color) | Bsdf::Clear(color) => *color,
             Bsdf::OrenNayar(rough) => rough.albedo(out),
             Bsdf::Sheet(sheet) => sheet.albedo(out),
             Bsdf::Conductor(conductor) => conductor.albedo(out),

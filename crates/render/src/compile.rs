@@ -14,6 +14,7 @@ use crate::emitters::Emitters;
 use crate::fog::Fog;
 use crate::lights::Light;
 use crate::materials::Material;
+use crate::surfaces::Scattering;
 use crate::textures::Textures;
 use contents::Contents;
 use durer_geometry::{Bounds, BuildFor, Hit, Plan, Primitive, SimdLevel, Vantage, World};
@@ -38,6 +39,8 @@ pub struct CompiledScene {
     shared: GeometryMemory,
     /// The scene's, and after them the default material.
     pub(crate) materials: Vec<Material>,
+    /// What path tracing makes of them, in the same order.
+    pub(crate) scatterings: Vec<Scattering>,
     pub(crate) textures: Textures,
     /// The scene's, and after them those that imported files bring.
     pub(crate) lights: Vec<Light>,
@@ -124,6 +127,7 @@ pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
         shared,
         textures: Textures::compile(scene),
         materials,
+        scatterings: scatterings(scene),
         background: Background::compile(scene),
         ambient: scene.ambient,
         fog: scene.fog.as_ref().map(Fog::compile),
@@ -143,7 +147,14 @@ fn purpose(trees: Trees) -> BuildFor {
 /// The scene's, and after them the default material.
 fn materials(scene: &Scene) -> Vec<Material> {
     let default = durer_scene::Material::default();
-    scene.materials.iter().chain([&default]).map(Material::compile).collect()
+    let integrator = scene.render.integrator;
+    scene.materials.iter().chain([&default]).map(|material| Material::compile(material, integrator)).collect()
+}
+
+/// What path tracing makes of the same.
+fn scatterings(scene: &Scene) -> Vec<Scattering> {
+    let default = durer_scene::Material::default();
+    scene.materials.iter().chain([&default]).map(|material| Scattering::compile(&material.kind)).collect()
 }
 
 /// The media that may be around the origin of one of the eye's rays.

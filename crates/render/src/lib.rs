@@ -32,6 +32,7 @@ mod reconstruct;
 mod sampler;
 mod schedule;
 mod shading;
+mod surfaces;
 mod textures;
 mod visibility;
 mod whitted_reading;

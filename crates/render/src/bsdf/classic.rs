@@ -34,6 +34,8 @@ pub(crate) struct Classic {
 pub(crate) enum Through {
     /// As if there were nothing.
     Straight,
+    /// The same, but where what is on both sides bends light alike: shadow rays do not know.
+    Clear,
     /// Straight, but for what both boundaries of a thin sheet reflect.
     Sheet(Sheet),
     /// Bent.
@@ -106,7 +108,8 @@ impl Classic {
             let weight = weighed(self.transparency, through);
             let scattered = match &self.through {
                 Through::Straight => Scattered { direction: -out, weight: Rgb::WHITE, how: How::Straight, scale: 1.0 },
-                Through::Sheet(sheet) => sheet.sample(out, rest),
+                Through::Clear => Scattered { direction: -out, weight: Rgb::WHITE, how: How::Only, scale: 1.0 },
+                Through::Sheet(sheet) => sheet.sample_smooth(out, rest),
                 Through::Bent(dielectric) => dielectric.sample(out, rest, at)?,
             };
             return Some(Scattered { weight: scattered.weight * weight, ..scattered });
@@ -132,7 +135,7 @@ impl Classic {
         match &self.through {
             Through::Straight => self.transparency,
             Through::Sheet(sheet) => self.transparency * sheet.straight(out),
-            Through::Bent(_) => Rgb::BLACK,
+            Through::Clear | Through::Bent(_) => Rgb::BLACK,
         }
     }
 

@@ -29,8 +29,8 @@ fn kinds() -> Vec<Kind> {
     let mut kinds = vec![
         Kind::new("white", Bsdf::Diffuse(Rgb::WHITE), Some(1e-6)),
         Kind::new("mirror", Bsdf::Mirror(Rgb::WHITE), Some(1e-6)),
-        Kind::new("pane", Bsdf::Sheet(Sheet::new(1.5, Rgb::WHITE)), Some(1e-6)),
-        Kind::new("pane in water", Bsdf::Sheet(Sheet::new(0.75, color)), None),
+        Kind::new("pane", Bsdf::Sheet(Sheet::new(1.5, Rgb::WHITE, None)), Some(1e-6)),
+        Kind::new("pane in water", Bsdf::Sheet(Sheet::new(0.75, color, None)), None),
     ];
     for roughness in roughnesses() {
         let ggx = Ggx::of_roughness(roughness, 0.0);
@@ -47,6 +47,7 @@ fn kinds() -> Vec<Kind> {
         add("brushed metal", Bsdf::Conductor(Conductor::new(gold, gold.average(), brushed)), None);
         add("white plastic", Bsdf::Plastic(Plastic::new(1.5, Rgb::WHITE, ggx)), Some(6e-3));
         add("plastic", Bsdf::Plastic(Plastic::new(1.8, color, ggx)), None);
+        add("rough pane", Bsdf::Sheet(Sheet::new(1.5, Rgb::WHITE, ggx)), Some(6e-3));
         for eta in [1.2, 1.5, 2.4] {
             for eta in [eta, 1.0 / eta] {
                 let glass = |eta| Bsdf::Dielectric(Dielectric::new(eta, Rgb::WHITE, ggx));
@@ -69,7 +70,7 @@ fn kinds() -> Vec<Kind> {
     for (name, parts, through) in [
         ("classic", parts, Through::Straight),
         ("clear classic", clear, Through::Straight),
-        ("classic sheet", clear, Through::Sheet(Sheet::new(1.5, Rgb::WHITE))),
+        ("classic sheet", clear, Through::Sheet(Sheet::new(1.5, Rgb::WHITE, None))),
         ("classic glass", clear, Through::Bent(glass)),
         ("classic glass without reflection", clear, Through::Bent(Dielectric::without_reflection(1.3, Rgb::WHITE))),
         ("glossy classic", glossy, Through::Straight),
