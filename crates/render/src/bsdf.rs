@@ -87,6 +87,21 @@ impl Bsdf {
         }
     }
 
+    /// True if light from behind the surface may be found by aiming at it.
+    pub(crate) fn spreads_through(&self) -> bool {
+        match self {
+            Bsdf::Dielectric(dielectric) => !dielectric.is_specular(),
+            Bsdf::Sheet(sheet) => !sheet.is_specular(),
+            Bsdf::Diffuse(_)
+            | Bsdf::OrenNayar(_)
+            | Bsdf::Mirror(_)
+            | Bsdf::Clear(_)
+            | Bsdf::Conductor(_)
+            | Bsdf::Plastic(_)
+            | Bsdf::Classic(_) => false,
+        }
+    }
+
     /// The scattering function times |cos θ| of `toward`, and the density with which [`Bsdf::sample`] finds it.
     #[inline]
     pub(crate) fn evaluate(&self, out: DVec3, toward: DVec3) -> (Rgb, f64) {

@@ -8,7 +8,7 @@ use crate::compile::CompiledScene;
 use crate::eye::SceneEye;
 use crate::film::{Account, Film, Region, Tile};
 use crate::first_hits::FirstHits;
-use crate::integrators::whitted::Whitted;
+use crate::integrators::sharp::Sharp;
 use crate::memory::rows_at_a_time;
 use crate::pixel::render_pixel;
 use crate::reconstruct::{Reconstruction, color_of, normalize};
@@ -181,7 +181,7 @@ impl WithAntialias for RenderAll<'_> {
         let RenderAll { scene, film, progress } = self;
         let mut reconstruction = Reconstruction::new(rows, filter, film.region(), scene.picture_size());
         let stop = || progress.stop();
-        let eye = SceneEye { scene, stop: &stop };
+        let eye = SceneEye::until(scene, &stop);
         let at_a_time = rows_at_a_time(&scene.settings, film.region().width);
         for band in film.unfinished_bands() {
             let mut tile = Tile::new(band);
@@ -281,10 +281,11 @@ pub(crate) fn in_tiles<G: Send, T: Send>(
 
 fn render_tile<A: Antialias>(scene: &CompiledScene, region: Region, antialias: &A) -> Tile {
     let mut tile = Tile::new(region);
+    let integrator = Sharp::of(scene);
     let first_hits = FirstHits::find(scene, antialias, region);
     for (x, y) in region.pixel_places() {
         let known = first_hits.of_pixel(tile.pixels.len());
-        let pixel = render_pixel(scene, (&Whitted, antialias), (x, y), known, &mut tile.account);
+        let pixel = render_pixel(scene, (&integrator, antialias), (x, y), known, &mut tile.account);
         let color = if pixel.has_bad_samples { without_bad_samples(scene, antialias, (x, y)) } else { pixel.color };
         tile.pixels.push(color);
         tile.depths.push(pixel.depth);

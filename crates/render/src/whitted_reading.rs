@@ -16,7 +16,7 @@ pub(crate) fn whitted(kind: &MaterialKind) -> Classic {
         MaterialKind::Metal(metal) => self::metal(metal),
         MaterialKind::Glass(glass) => self::glass(glass),
         MaterialKind::Plastic(plastic) => self::plastic(plastic),
-        MaterialKind::Mirror(Mirror { color }) => Classic { reflection: mean(*color), ..diffuse(0.0) },
+        MaterialKind::Mirror(Mirror { color }) => Classic { color: *color, reflection: mean(*color), ..diffuse(0.0) },
         MaterialKind::Principled(principled) => self::principled(principled),
     }
 }
@@ -81,6 +81,7 @@ fn metal(metal: &Metal) -> Classic {
 fn glass(glass: &Glass) -> Classic {
     let shininess = shininess(amount(glass.roughness));
     Classic {
+        color: glass.color,
         specular: highlight(Rgb::gray(straight_back(glass.ior)), shininess),
         shininess,
         transparency: mean(glass.color),
