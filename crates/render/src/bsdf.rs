@@ -13,6 +13,8 @@ mod fresnel;
 mod ggx;
 mod oren_nayar;
 mod plastic;
+mod principled;
+mod sheen;
 mod sheet;
 mod tables;
 mod warps;
@@ -24,6 +26,8 @@ pub(crate) use fresnel::Reflectance;
 pub(crate) use ggx::Ggx;
 pub(crate) use oren_nayar::OrenNayar;
 pub(crate) use plastic::Plastic;
+pub(crate) use principled::{Coat, Layers, Principled, Through as ThroughLayers};
+pub(crate) use sheen::Sheen;
 pub(crate) use sheet::Sheet;
 
 use durer_math::{DVec2, DVec3, Rgb};
@@ -44,6 +48,7 @@ pub(crate) enum Bsdf {
     Sheet(Sheet),
     Plastic(Plastic),
     Classic(Classic),
+    Principled(Principled),
 }
 
 /// A direction chosen at random.
@@ -84,6 +89,7 @@ impl Bsdf {
             Bsdf::Dielectric(dielectric) => dielectric.is_specular(),
             Bsdf::Plastic(plastic) => plastic.is_specular(),
             Bsdf::Classic(classic) => classic.is_specular(),
+            Bsdf::Principled(principled) => principled.is_specular(),
         }
     }
 
@@ -92,6 +98,7 @@ impl Bsdf {
         match self {
             Bsdf::Dielectric(dielectric) => !dielectric.is_specular(),
             Bsdf::Sheet(sheet) => !sheet.is_specular(),
+            Bsdf::Principled(principled) => principled.spreads_through(),
             Bsdf::Diffuse(_)
             | Bsdf::OrenNayar(_)
             | Bsdf::Mirror(_)
@@ -121,6 +128,7 @@ impl Bsdf {
             Bsdf::Dielectric(dielectric) => dielectric.evaluate(out, toward),
             Bsdf::Plastic(plastic) => plastic.evaluate(out, toward),
             Bsdf::Classic(classic) => classic.evaluate(out, toward),
+            Bsdf::Principled(principled) => principled.evaluate(out, toward),
         }
     }
 
@@ -147,6 +155,7 @@ impl Bsdf {
             Bsdf::Dielectric(dielectric) => dielectric.sample(out, lobe, at)?,
             Bsdf::Plastic(plastic) => plastic.sample(out, lobe, at)?,
             Bsdf::Classic(classic) => classic.sample(out, lobe, at)?,
+            Bsdf::Principled(principled) => principled.sample(out, lobe, at)?,
         };
         (scattered.direction.z.abs() >= EDGE_ON).then_some(scattered)
     }
@@ -163,6 +172,7 @@ impl Bsdf {
             | Bsdf::Plastic(_) => Rgb::BLACK,
             Bsdf::Sheet(sheet) => sheet.straight(out),
             Bsdf::Classic(classic) => classic.straight(out),
+            Bsdf::Principled(principled) => principled.straight(out),
         }
     }
 
@@ -176,6 +186,7 @@ impl Bsdf {
             Bsdf::Dielectric(dielectric) => dielectric.albedo(out),
             Bsdf::Plastic(plastic) => plastic.albedo(out),
             Bsdf::Classic(classic) => classic.albedo(),
+            Bsdf::Principled(principled) => principled.albedo(out),
         }
     }
 }

@@ -167,7 +167,12 @@ fn materials(scene: &Scene) -> Vec<Material> {
 /// What path tracing makes of the same.
 fn scatterings(scene: &Scene) -> Vec<Scattering> {
     let default = durer_scene::Material::default();
-    scene.materials.iter().chain([&default]).map(|material| Scattering::compile(&material.kind)).collect()
+    let all = scene.materials.iter().chain([&default]).map(|material| Scattering::compile(&material.kind));
+    let all: Vec<Scattering> = all.collect();
+    if let Integrator::Path { .. } = scene.render.integrator {
+        all.iter().for_each(Scattering::prepare);
+    }
+    all
 }
 
 /// The media that may be around the origin of one of the eye's rays.

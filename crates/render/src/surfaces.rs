@@ -1,11 +1,12 @@
 //! Materials, compiled for path tracing: what can be looked up once is, and textures are asked at each hit.
 
+mod principled;
+
 use crate::bsdf::{Bsdf, Classic, Conductor, Dielectric, Ggx, OrenNayar, Parts, Plastic, Reflectance, Sheet, Through};
+use crate::frame::Frame;
 use crate::shading::{Shading, Textured, tangents, within_one};
 use durer_math::Rgb;
 use durer_scene::{MaterialKind, Paint};
-
-use crate::frame::Frame;
 
 /// How a material scatters light.
 #[derive(Clone, Debug)]
@@ -28,6 +29,7 @@ pub(crate) enum Scattering {
     },
     Mirror,
     Classic(durer_scene::Classic),
+    Principled(Box<durer_scene::Principled>),
 }
 
 /// What a metal reflects.
@@ -82,7 +84,45 @@ impl Scattering {
             }
             MaterialKind::Plastic(plastic) => Scattering::Plastic { ior: plastic.ior, roughness: plastic.roughness },
             MaterialKind::Mirror(_) => Scattering::Mirror,
-            MaterialKind::Principled(_) => Scattering::Matte,
+            MaterialKind::Principled(principled) => Scattering::Principled(principled.clone()),
+        }
+    }
+
+    /// Makes those tables now that hits next to empty space will look up, so that rendering does not wait for them.
+    pub(crate) fn prepare(&self) {
+        let any = || Ggx::of_roughness(0.5, 0.0);
+        let rough_glass = |ior: f64, roughness: Paint| {
+            if !is_zero(roughness) && (ior - 1.0).abs() > EQUAL {
+                let _ = Dielectric::new(ior, Rgb::WHITE, any());
+            }
+        };
+        let metal = || {
+            let white = Reflectance::Schlick { f0: Rgb::WHITE, f90: Rgb::WHITE };
+            let _ = Conductor::new(white, Rgb::WHITE, any());
+        };
+        match self {
+            Scattering::Metal { .. } => metal(),
+            Scattering::Glass(glass) => {
+                rough_glass(glass.ior, glass.roughness);
+                metal();
+            }
+            Scattering::Plastic { ior, roughness } if !is_zero(*roughness) => {
+                let _ = Plastic::new(ior.max(1.0 + EQUAL), Rgb::WHITE, any());
+            }
+            Scattering::Principled(layers) => {
+                metal();
+                if !is_zero(layers.sheen_color) {
+                    let _ = crate::bsdf::Sheen::new(Rgb::WHITE, 0.5).taken(0.5);
+                }
+                if !is_zero(layers.transmission) && !layers.thin {
+                    rough_glass(layers.ior, layers.roughness);
+                }
+            }
+            Scattering::Matte
+            | Scattering::RoughMatte { .. }
+            | Scattering::Plastic { .. }
+            | Scattering::Mirror
+            | Scattering::Classic(_) => {}
         }
     }
 
@@ -121,6 +161,7 @@ impl Scattering {
             }
             Scattering::Mirror => (around(), Bsdf::Mirror(color)),
             Scattering::Classic(classic) => (around(), self::classic(classic, shading.color, indices)),
+            Scattering::Principled(layers) => principled::at(layers, shading, textured, indices),
         }
     }
 
@@ -134,6 +175,7 @@ impl Scattering {
             | Scattering::Plastic { .. }
             | Scattering::Mirror
             | Scattering::Classic(_) => false,
+            Scattering::Principled(layers) => !is_zero(layers.transmission) && !layers.thin,
         }
     }
 }

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 /// Cells: from pole to pole by equal angles, and around.
 const BINS: (usize, usize) = (20, 40);
 /// Directions found for a test.
-const SAMPLES: u32 = 40_000;
+const SAMPLES: u32 = 20_000;
 /// A test that is right fails with this probability; about as many are run as are allowed for here (Šidák's correction).
 const SIGNIFICANCE: f64 = 0.01;
 const TESTS: f64 = 1000.0;

@@ -32,6 +32,13 @@ impl Ggx {
         Ggx::new(if anisotropy > 0.0 { DVec2::new(along, across) } else { DVec2::new(across, along) })
     }
 
+    /// As [`Ggx::of_roughness`], but with glTF's measure of anisotropy from 0 to 1, which widens highlights along x only
+    /// (KHR_materials_anisotropy).
+    pub(crate) fn widened(roughness: f64, anisotropy: f64) -> Option<Ggx> {
+        let alpha = (roughness * roughness).min(1.0);
+        Ggx::new(DVec2::new(alpha + (1.0 - alpha) * anisotropy * anisotropy, alpha))
+    }
+
     /// The distribution with these widths; `None` if the surface is smooth.
     pub(crate) fn new(alpha: DVec2) -> Option<Ggx> {
         (alpha.max_element() >= SMOOTH).then(|| Ggx { alpha: alpha.max(DVec2::splat(0.1 * SMOOTH)) })

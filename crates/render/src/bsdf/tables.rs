@@ -6,8 +6,11 @@
 
 use super::fresnel::{self, schlick_weight};
 use super::ggx::Ggx;
+use super::sheen;
+use super::warps::even_hemisphere;
 use durer_math::{DVec2, DVec3};
 use std::array;
+use std::f64::consts::PI;
 use std::sync::{LazyLock, OnceLock};
 
 /// Steps of roughness (the square root of α), and of the square root of the cosine: both lie closest where tables bend.
@@ -74,6 +77,16 @@ pub(crate) static DIELECTRIC: Dielectric = Dielectric {
     either_from_dense: Slices::new(|eta| either_way(1.0 / eta)),
 };
 
+/// What cloth gives back, by roughness; above 1 for upright fibers seen from the side.
+pub(crate) static SHEEN: LazyLock<Table> = LazyLock::new(|| {
+    Table::of(|roughness, out| {
+        mean(|at| {
+            let toward = even_hemisphere(at);
+            2.0 * PI * sheen::value(out, toward, roughness) * toward.z
+        })
+    })
+});
+
 fn either_way(eta: f64) -> Table {
     Table::summed(|ggx, out, h| reflected_part(ggx, out, h, eta) + transmitted_part(ggx, out, h, eta), |_| 1.0)
 }
@@ -99,15 +112,20 @@ fn kept(ggx: &Ggx, out: DVec3, toward: DVec3) -> f64 {
 impl Table {
     /// For each cosine and roughness, the mean of `weight` over visible normals; `smooth` is what it is without roughness.
     fn summed(weight: impl Fn(&Ggx, DVec3, DVec3) -> f64, smooth: impl Fn(f64) -> f64) -> Table {
-        let entry = |roughness: f64, root: f64| {
-            let cos = root * root;
-            let Some(ggx) = Ggx::new(DVec2::splat(roughness * roughness)) else { return smooth(cos) };
-            let out = DVec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
-            let sum: f64 = (0..SUMMED).map(|k| weight(&ggx, out, ggx.sample(out, spread(k)))).sum();
-            sum / f64::from(SUMMED)
+        Table::of(|roughness, out| match Ggx::new(DVec2::splat(roughness * roughness)) {
+            Some(ggx) => mean(|at| weight(&ggx, out, ggx.sample(out, at))),
+            None => smooth(out.z),
+        })
+    }
+
+    /// A function of roughness and the direction of the eye.
+    fn of(value: impl Fn(f64, DVec3) -> f64) -> Table {
+        let node = |i: usize, j: usize| {
+            let at = |i: usize| i as f64 / STEPS as f64;
+            let cos = at(j).max(1e-3) * at(j).max(1e-3);
+            value(at(i), DVec3::new((1.0 - cos * cos).sqrt(), 0.0, cos)) as f32
         };
-        let at = |i: usize| i as f64 / STEPS as f64;
-        let nodes: [_; STEPS + 1] = array::from_fn(|i| array::from_fn(|j| entry(at(i), at(j).max(1e-3)) as f32));
+        let nodes: [_; STEPS + 1] = array::from_fn(|i| array::from_fn(|j| node(i, j)));
         let averages = nodes.map(|row| average(&row));
         Table { nodes, averages }
     }
@@ -198,6 +216,11 @@ fn average(row: &[f32; STEPS + 1]) -> f32 {
         sum += slope * 0.8 * (fourth(b) * b - fourth(a) * a);
     }
     sum as f32
+}
+
+/// The mean of a function over the unit square.
+fn mean(f: impl Fn(DVec2) -> f64) -> f64 {
+    (0..SUMMED).map(|k| f(spread(k))).sum::<f64>() / f64::from(SUMMED)
 }
 
 /// Evenly spread points of the unit square: Roberts's R2 sequence, by the plastic number.

@@ -29,3 +29,14 @@ pub(crate) fn cosine_hemisphere(at: DVec2) -> DVec3 {
 pub(crate) fn cosine_pdf(cos: f64) -> f64 {
     cos.max(0.0) / PI
 }
+
+/// A direction above the surface, all alike. The density is [`EVEN_PDF`].
+#[inline]
+pub(crate) fn even_hemisphere(at: DVec2) -> DVec3 {
+    let radius = (at.x * (2.0 - at.x)).max(0.0).sqrt();
+    let (cos, sin) = cos_sin_of_turns(at.y);
+    DVec3::new(radius * cos, radius * sin, 1.0 - at.x)
+}
+
+/// The density of [`even_hemisphere`], per solid angle.
+pub(crate) const EVEN_PDF: f64 = 0.5 / PI;

@@ -64,6 +64,11 @@ impl Textured<'_> {
         if gray.is_finite() { f64::from(gray) } else { 0.0 }
     }
 
+    /// The color that a paint says. Colors of the surface's own have no part in it.
+    pub(crate) fn color_of(&self, paint: Paint) -> Rgb {
+        self.scene.textures.color(paint, self)
+    }
+
     /// The part of light that is given back, from 0 to 1 in each component, that a paint says. Colors of the surface's own
     /// have no part in it.
     pub(crate) fn part(&self, paint: Paint) -> Rgb {
