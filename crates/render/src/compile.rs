@@ -16,6 +16,7 @@ use crate::lights::Light;
 use crate::materials::Material;
 use crate::surfaces::Scattering;
 use crate::textures::Textures;
+use crate::whitted_reading::Means;
 use contents::Contents;
 use durer_geometry::{Bounds, BuildFor, Hit, Plan, Primitive, SimdLevel, Vantage, World};
 use durer_math::Rgb;
@@ -160,8 +161,9 @@ fn purpose(trees: Trees) -> BuildFor {
 /// The scene's, and after them the default material.
 fn materials(scene: &Scene) -> Vec<Material> {
     let default = durer_scene::Material::default();
-    let integrator = scene.render.integrator;
-    scene.materials.iter().chain([&default]).map(|material| Material::compile(material, integrator)).collect()
+    let (mut means, integrator) = (Means::new(scene), scene.render.integrator);
+    let all = scene.materials.iter().chain([&default]);
+    all.map(|material| Material::compile(material, &mut means, integrator)).collect()
 }
 
 /// What path tracing makes of the same.
