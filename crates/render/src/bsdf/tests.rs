@@ -77,13 +77,13 @@ fn kinds() -> Vec<Kind> {
         let half = Some((0.5, principled::Through::Thin(Sheet::new(1.5, color, ggx))));
         principled("principled half pane", Layers { through: half, sheen, ..colored }, None);
         let bent = |eta| Some((0.7, principled::Through::Bent(Dielectric::new(eta, Rgb::WHITE, ggx))));
-        principled("principled half glass", Layers { through: bent(1.5), ..layers }, Some(1e-2));
-        principled("from within principled half glass", Layers { through: bent(1.0 / 1.5), ..layers }, Some(1e-2));
+        principled("principled half glass", Layers { through: bent(1.5), ..layers }, Some(1.5e-2));
+        principled("from within principled half glass", Layers { through: bent(1.0 / 1.5), ..layers }, Some(1.5e-2));
         add("rough pane", Bsdf::Sheet(Sheet::new(1.5, Rgb::WHITE, ggx)), Some(6e-3));
         for eta in [1.3, 2.4] {
             for eta in [eta, 1.0 / eta] {
                 let glass = |eta| Bsdf::Dielectric(Dielectric::new(eta, Rgb::WHITE, ggx));
-                let mut kind = Kind::new(&format!("glass {eta:.3} of roughness {roughness}"), glass(eta), Some(1e-2));
+                let mut kind = Kind::new(&format!("glass {eta:.3} of roughness {roughness}"), glass(eta), Some(1.5e-2));
                 (kind.behind, kind.squeeze) = (Some(glass(1.0 / eta)), 1.0 / (eta * eta));
                 kinds.push(kind);
             }

@@ -142,10 +142,6 @@ impl<O: Observer> Path<'_, O> {
             let part = self.part_of_found(density);
             self.add(Source::Emission, emission * part);
         }
-        if self.state.depth >= self.tracer.max_depth {
-            self.observer.not_traced(RayKind::Reflected, self.state.weight, NotTraced::TooDeep);
-            return false;
-        }
         self.scatter(&shading)
     }
 
@@ -159,6 +155,9 @@ impl<O: Observer> Path<'_, O> {
         };
         let (frame, bsdf) = shading.scattering(self.scene, indices);
         let out = shading.out_in(&frame);
+        if self.state.depth >= self.tracer.max_depth {
+            return self.end(shading, bsdf.straight(out));
+        }
         let receiver =
             Receiver { point: shading.origin_back(), normal: shading.normal(), passes: bsdf.spreads_through() };
         let step = self.step();
@@ -201,6 +200,17 @@ impl<O: Observer> Path<'_, O> {
         } else {
             (self.state.kind, self.state.ray) = (RayKind::Reflected, shading.ray_back(direction));
         }
+        true
+    }
+
+    /// Where the longest path ends, its last segment goes on through what lets light pass straight, as shadow rays do.
+    fn end(&mut self, shading: &Shading<'_>, straight: Rgb) -> bool {
+        if straight.is_black() {
+            self.observer.not_traced(RayKind::Reflected, self.state.weight, NotTraced::TooDeep);
+            return false;
+        }
+        self.state.weight *= straight;
+        self.pass(shading, shading.bounds_medium);
         true
     }
 
@@ -348,7 +358,12 @@ mod tests {
     }
 
     fn mean(scene: &CompiledScene, samples: u32) -> Rgb {
-        let tracer = PathTracer { max_depth: 1000, clamp: None };
+        mean_to(1000, scene, samples)
+    }
+
+    /// With no more segments than this.
+    fn mean_to(max_depth: u32, scene: &CompiledScene, samples: u32) -> Rgb {
+        let tracer = PathTracer { max_depth, clamp: None };
         let ray = scene.camera.ray(durer_math::DVec2::new(320.0, 240.0));
         let estimates = (0..samples).map(|index| {
             let sampler = Sampler::new(0, (0, 0), index);
@@ -492,7 +507,7 @@ mod tests {
                 ..Scene::default()
             };
             let scene = compile(&scene.check().unwrap());
-            let found = mean(&scene, 16);
+            let found = mean_to(2, &scene, 16);
             assert!((found.g - 0.923_08).abs() < 1e-4, "{found:?}");
         }
     }
