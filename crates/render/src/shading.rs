@@ -155,6 +155,13 @@ impl<'a> Shading<'a> {
         scene.scatterings[self.material_id as usize].at(self, &textured, indices)
     }
 
+    /// The part of white light from everywhere that the surface gives back or lets through, about, as if nothing were before it.
+    pub(crate) fn albedo(&self, scene: &CompiledScene) -> Rgb {
+        let behind = self.bounds_medium.then(|| scene.material(self.primitive).ior.unwrap_or(1.0));
+        let (frame, bsdf) = self.scattering(scene, Indices { before: 1.0, behind });
+        within_one(bsdf.albedo(self.out_in(&frame)))
+    }
+
     /// True if there is nothing to see where what it is filled with makes no difference.
     pub(crate) fn is_only_a_boundary(&self, scene: &CompiledScene) -> bool {
         scene.scatterings[self.material_id as usize].is_only_a_boundary()

@@ -81,7 +81,7 @@ impl Ggx {
     }
 
     /// The density with which [`Ggx::sample`] finds `h`, per its solid angle: that of visible normals.
-    #[inline]
+    #[cfg(test)]
     pub(crate) fn visible_pdf(&self, out: DVec3, h: DVec3) -> f64 {
         self.masking(out) * self.density(h) * out.dot(h).max(0.0) / out.z
     }

@@ -72,7 +72,7 @@ impl Plastic {
             let (o, i) = (1.0 + ggx.lambda(out), ggx.lambda(toward));
             let density = ggx.density(h) / (4.0 * out.z);
             let reflectance = fresnel::dielectric(out.dot(h), self.eta).reflectance;
-            value = value + Rgb::gray((reflectance * density / (o + i)) as f32);
+            value += Rgb::gray((reflectance * density / (o + i)) as f32);
             pdf += coat * density / o;
         }
         (value, pdf)

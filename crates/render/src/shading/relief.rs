@@ -71,7 +71,8 @@ pub(crate) fn tangents(textured: &Textured<'_>, normal: DVec3) -> Option<[DVec3;
     let (along_x, along_y) = (slope(x), slope(y));
     let uv_from_plane = DMat3::from_cols(along_x.extend(0.0), along_y.extend(0.0), DVec3::Z);
     let determinant = uv_from_plane.determinant();
-    if !(determinant.abs() > 1e-12 * along_x.length_squared().max(along_y.length_squared())) {
+    let least = 1e-12 * along_x.length_squared().max(along_y.length_squared());
+    if determinant.abs() <= least || !determinant.is_finite() {
         return None;
     }
     let plane_from_uv = uv_from_plane.inverse();
