@@ -6,7 +6,7 @@
 
 use super::{Chosen, Target};
 use crate::Bounds;
-use durer_math::functions::{atan2, sin_cos_of_turns};
+use durer_math::functions::{atan2, cos_sin_of_turns};
 use durer_math::{DVec2, DVec3};
 use std::f64::consts::PI;
 
@@ -69,7 +69,7 @@ impl Seen {
         }
         // Of the two planes through the origin and the sides along x, the cosines to the rectangle's.
         let (low, high) = (-y0 / (h * h + y0 * y0).sqrt(), y1 / (h * h + y1 * y1).sqrt());
-        let (sine, cosine) = sin_cos_of_turns((at.x * self.solid_angle + self.rest) * (0.5 / PI));
+        let (cosine, sine) = cos_sin_of_turns((at.x * self.solid_angle + self.rest) * (0.5 / PI));
         let f = (cosine * low - high) / sine;
         let c = (1.0 / (f * f + low * low).sqrt()).copysign(f).clamp(-1.0, 1.0);
         // In this plane through the y axis, from which the rest follows; a clamp undoes what was rounded.
