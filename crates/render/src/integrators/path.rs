@@ -313,12 +313,12 @@ mod tests {
     use super::*;
     use crate::compile::compile;
     use durer_scene::{
-        Background, Classic, Emission, Light, LightKind, Material, MaterialKind, Object, ObjectKind, Paint, Scene,
-        Shape, Strength,
+        Background, Emission, Light, LightKind, Material, MaterialKind, Matte, Object, ObjectKind, Paint, Scene, Shape,
+        Strength,
     };
 
-    fn white(color: Paint) -> Material {
-        Material::of(MaterialKind::Classic(Classic { color, diffuse: 1.0, ..Classic::default() }))
+    fn matte(color: Rgb) -> Material {
+        Material::of(MaterialKind::Matte(Matte { color: Paint::Color(color), ..Matte::default() }))
     }
 
     fn mean(scene: &CompiledScene, samples: u32) -> Rgb {
@@ -335,7 +335,7 @@ mod tests {
     #[test]
     fn a_furnace_glows_as_its_series_says() {
         let color = Rgb::new(0.2, 0.5, 0.8);
-        let material = Material { emission: Emission::of(Rgb::WHITE), ..white(Paint::Color(color)) };
+        let material = Material { emission: Emission::of(Rgb::WHITE), ..matte(color) };
         let ball = Object {
             material: Some(durer_scene::MaterialId(0)),
             ..Object::new(ObjectKind::Shape(Shape::Sphere { center: durer_math::DVec3::ZERO, radius: 3.0 }))
@@ -357,7 +357,7 @@ mod tests {
     /// Under a white sky a convex white body looks white.
     #[test]
     fn a_white_ball_vanishes_in_a_white_sky() {
-        let material = white(Paint::Color(Rgb::WHITE));
+        let material = matte(Rgb::WHITE);
         let ball = Object {
             material: Some(durer_scene::MaterialId(0)),
             ..Object::new(ObjectKind::Shape(Shape::Sphere { center: durer_math::DVec3::NEG_Z * 5.0, radius: 1.0 }))
