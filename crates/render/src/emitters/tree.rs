@@ -35,9 +35,9 @@ impl Item {
         let min = bounds.min.to_array().map(|x| (x as f32).next_down());
         let max = bounds.max.to_array().map(|x| (x as f32).next_up());
         let is_somewhere = min.iter().chain(&max).all(|x| x.abs() < 1e18);
-        // Any order of magnitude between which ratios can be formed.
-        let intensity = intensity.min(1e30) as f32;
-        (is_somewhere && intensity > 1e-30).then_some(Item { min, max, intensity, cone, id })
+        // Orders of magnitude between which ratios can be formed.
+        let is_bright = intensity > 1e-30;
+        (is_somewhere && is_bright).then(|| Item { min, max, intensity: intensity.min(1e30) as f32, cone, id })
     }
 }
 

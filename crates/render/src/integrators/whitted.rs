@@ -25,11 +25,11 @@ impl Integrator for Whitted {
         scene: &CompiledScene,
         ray: &Ray,
         known: Known<'_>,
-        _: &Sampler,
+        sampler: &Sampler,
         observer: &mut O,
     ) -> Rgb {
         let media = if scene.media_at_eye.is_empty() { Media::default() } else { Media::around(scene, ray) };
-        let mut path = Path { scene, media, sum: Rgb::BLACK, observer };
+        let mut path = Path { scene, sampler, shaded: 0, media, sum: Rgb::BLACK, observer };
         path.trace(RayKind::Eye, 1, ray, Rgb::WHITE, known);
         path.sum
     }
@@ -38,6 +38,9 @@ impl Integrator for Whitted {
 /// All rays from one ray of the eye.
 struct Path<'a, O> {
     scene: &'a CompiledScene,
+    sampler: &'a Sampler,
+    /// How many surfaces have been shaded.
+    shaded: u32,
     /// Around the origin of the ray being traced.
     media: Media,
     sum: Rgb,
