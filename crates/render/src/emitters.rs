@@ -210,6 +210,28 @@ impl Emitters {
         })
     }
 
+    /// A point on one of the glowing shapes.
+    pub(crate) fn sample_shape(
+        &self,
+        scene: &CompiledScene,
+        receiver: &Receiver,
+        choice: f64,
+        at: DVec2,
+    ) -> Option<LightSample> {
+        let (id, probability, _) = self.tree.sample(receiver, choice)?;
+        if id as usize >= self.shapes.len() {
+            return None;
+        }
+        let sample = self.shapes.aim(scene, id as usize, receiver.point, at)?;
+        Some(LightSample { pdf: sample.pdf * probability, ..sample })
+    }
+
+    /// True if there are glowing shapes.
+    #[inline]
+    pub(crate) fn has_shapes(&self) -> bool {
+        self.shapes.len() > 0
+    }
+
     /// Glowing shapes.
     pub(crate) fn shapes(&self) -> &Shapes {
         &self.shapes

@@ -9,8 +9,8 @@ use crate::observer::RayCounts;
 use crate::sampler::Sampler;
 use durer_imaging::{Bitmap, Texels};
 use durer_scene::{
-    Background, Emission, Falloff, ImageAsset, ImageId, Light, LightKind, Material, MaterialId, MaterialKind, Matte, Mesh,
-    MeshData, Object, ObjectKind, Paint, Scene, Shape, Sides, Strength, TransformStep,
+    Background, Emission, Falloff, ImageAsset, ImageId, Light, LightKind, Material, MaterialId, MaterialKind, Matte,
+    Mesh, MeshData, Object, ObjectKind, Paint, Scene, Shape, Sides, Strength, TransformStep,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -85,8 +85,12 @@ fn a_ball_lights_the_floor_by_the_angle_it_fills() {
 #[test]
 fn a_disc_lights_the_floor_by_its_form_factor() {
     for (height, slack) in [(0.2, 0.02), (1.0, 0.01), (30.0, 0.01)] {
-        let disc =
-            |radius, inner_radius| Shape::Disc { center: DVec3::Y * height, normal: DVec3::NEG_Y, radius, inner_radius };
+        let disc = |radius, inner_radius| Shape::Disc {
+            center: DVec3::Y * height,
+            normal: DVec3::NEG_Y,
+            radius,
+            inner_radius,
+        };
         let factor = |radius: f64| radius * radius / (radius * radius + height * height);
         is_seen(lit_by(disc(1.0, 0.0)), factor(1.0), slack);
         is_seen(lit_by(disc(1.0, 0.5)), factor(1.0) - factor(0.5), slack);
@@ -186,8 +190,7 @@ fn a_ball_is_the_same_light_as_a_mesh_and_as_an_environment() {
             (0.5 - (f64::from(at / width) + 0.5) / f64::from(height)) * PI,
         );
         let (sin, cos) = (durer_math::functions::sin, durer_math::functions::cos);
-        let direction =
-            DVec3::new(cos(latitude) * cos(longitude), sin(latitude), cos(latitude) * sin(longitude));
+        let direction = DVec3::new(cos(latitude) * cos(longitude), sin(latitude), cos(latitude) * sin(longitude));
         let along = direction.dot(center);
         let is_met = along > 0.0 && squared - along * along < 1.0;
         [f32::from(u8::from(is_met)); 3]

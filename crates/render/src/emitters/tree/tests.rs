@@ -5,7 +5,7 @@ use durer_math::functions::sin;
 
 /// Numbers from 0 to 1 in no order.
 fn number(seed: u32, index: u32) -> f64 {
-    let mixed = sin(f64::from(seed) * 12.9898 + f64::from(index) * 78.233) * 43_758.5453;
+    let mixed = sin(f64::from(seed) * 12.9898 + f64::from(index) * 78.233) * 43_758.545;
     mixed - mixed.floor()
 }
 
@@ -96,7 +96,8 @@ fn who_gives_light_has_a_chance() {
 /// Of two equal lamps the one at a third of the distance is chosen nine times as often; none behind, none that faces away.
 #[test]
 fn choices_go_by_distance_and_by_sides() {
-    let at = |middle: DVec3, cone: Cone, id: u32| Item::new(&Bounds { min: middle, max: middle }, 1.0, cone, id).unwrap();
+    let at =
+        |middle: DVec3, cone: Cone, id: u32| Item::new(&Bounds { min: middle, max: middle }, 1.0, cone, id).unwrap();
     let receiver = Receiver { point: DVec3::ZERO, normal: DVec3::Y, passes: false };
     let near = |found: f64, expected: f64| assert!((found - expected).abs() < 0.01, "{found}, not {expected}");
 
@@ -113,7 +114,8 @@ fn choices_go_by_distance_and_by_sides() {
 /// However many there are, and wherever: in one place, or in places that get closer and closer.
 #[test]
 fn trees_of_nasty_sets_are_sound() {
-    let point = |x: f64, id: u32| Item::new(&Bounds { min: DVec3::X * x, max: DVec3::X * x }, 1.0, Cone::ALL, id).unwrap();
+    let point =
+        |x: f64, id: u32| Item::new(&Bounds { min: DVec3::X * x, max: DVec3::X * x }, 1.0, Cone::ALL, id).unwrap();
     let same: Vec<Item> = (0..1000).map(|id| point(1.0, id)).collect();
     let mut place = 1e17;
     let closer = (0..1000).map(|id| {
