@@ -126,7 +126,7 @@ impl Emitters {
     }
 
     fn sample_near(&self, scene: &CompiledScene, receiver: &Receiver, choice: f64, at: DVec2) -> Option<LightSample> {
-        let (id, probability, _) = self.tree.sample(receiver, choice)?;
+        let (id, probability) = self.tree.sample(receiver, choice)?;
         let sample = match (id as usize).checked_sub(self.shapes.len()) {
             Some(lamp) => self.aim_at_lamp(scene, receiver.point, self.near_lamps[lamp] as usize, at)?,
             None => self.shapes.aim(scene, id as usize, receiver.point, at)?,
@@ -218,7 +218,7 @@ impl Emitters {
         choice: f64,
         at: DVec2,
     ) -> Option<LightSample> {
-        let (id, probability, _) = self.tree.sample(receiver, choice)?;
+        let (id, probability) = self.tree.sample(receiver, choice)?;
         if id as usize >= self.shapes.len() {
             return None;
         }

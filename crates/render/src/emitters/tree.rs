@@ -126,9 +126,9 @@ impl LightTree {
         self.nodes.first().map_or(0.0, |root| root.importance(receiver))
     }
 
-    /// Chooses an emitter by a number from 0 to 1: gives which, with what probability, and a number from 0 to 1 that the choice
-    /// leaves. `None` if none gives light to the receiver.
-    pub(crate) fn sample(&self, receiver: &Receiver, choice: f64) -> Option<(u32, f64, f64)> {
+    /// Chooses an emitter by a number from 0 to 1: gives which, and with what probability. `None` if none gives light to the
+    /// receiver.
+    pub(crate) fn sample(&self, receiver: &Receiver, choice: f64) -> Option<(u32, f64)> {
         let (mut at, mut probability, mut choice) = (0, 1.0, choice);
         let mut node = self.nodes.first()?;
         if node.is_leaf && node.importance(receiver) <= 0.0 {
@@ -146,7 +146,7 @@ impl LightTree {
             choice = choice.min(1.0_f64.next_down());
             node = &self.nodes[at];
         }
-        Some((node.link, probability, choice))
+        Some((node.link, probability))
     }
 
     /// The probability with which [`LightTree::sample`] chooses an emitter.
