@@ -242,13 +242,15 @@ impl<O: Observer> Path<'_, O> {
         if !scattered.is_black() && shading.is_on_far_side(light.direction) == passes {
             self.observer.shadow_ray();
             let ray = if passes { shading.ray_on(light.direction) } else { shading.ray_back(light.direction) };
+            // From the far side the way is not quite as long.
+            let reach = light.distance - (ray.origin - receiver.point).dot(light.direction);
             let vantage = light.lamp.and_then(|index| scene.light_vantages[index].as_ref());
             visible = if passes && shading.bounds_medium {
                 let mut media = self.media.clone();
                 let _ = media.cross(shading.primitive, shading.from_outside);
-                visibility(scene, &media, &ray, light.distance, vantage)
+                visibility(scene, &media, &ray, reach, vantage)
             } else {
-                visibility(scene, &self.media, &ray, light.distance, vantage)
+                visibility(scene, &self.media, &ray, reach, vantage)
             };
         }
         if let Some(index) = light.lamp {
