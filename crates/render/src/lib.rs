@@ -13,22 +13,22 @@ mod emitters;
 mod explain;
 mod eye;
 mod film;
+mod filter_sampling;
 mod first_hits;
 mod fog;
 #[allow(dead_code)]
 mod frame;
 mod heatmap;
 mod holes;
-#[allow(dead_code)]
 mod integrators;
 mod lights;
 mod materials;
 mod media;
 mod memory;
 mod observer;
+mod passes;
 mod pixel;
 mod reconstruct;
-#[allow(dead_code)]
 mod sampler;
 mod schedule;
 mod seen_first;
@@ -43,7 +43,7 @@ pub use explain::{
     Contribution, Element, HitExplanation, HoleExplanation, LightExplanation, PixelExplanation, RayExplanation,
     SampleExplanation, explain,
 };
-pub use film::{BadSample, Film, FilmParts, Region};
+pub use film::{BadSample, Film, FilmParts, Part, Region, SampleRange, Sums};
 pub use heatmap::{HeatMap, heatmap};
 pub use memory::memory_needed;
 pub use observer::{NotTraced, RayCounts, RayKind, Scattering, Source, Weighing};

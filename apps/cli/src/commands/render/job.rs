@@ -16,7 +16,7 @@ use durer::{
     SeenFirst, Sources, film_layers, read_checkpoint, temporary_beside,
 };
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
 /// What is to be done.
@@ -76,7 +76,7 @@ impl Job<'_> {
             interrupt.removes(&temporary_beside(saver.path()));
             if is_new && saving_from_the_start(arguments) {
                 // Only a try: what it takes is free again at once.
-                PictureFile::create(saver.path())?.reserve(14 * region.pixels())?;
+                PictureFile::create(saver.path())?.reserve(checkpoint_bytes_a_pixel(&scene) * region.pixels())?;
             }
         }
         let rays_before = film.as_ref().map_or(0, |film| film.rays().total());
@@ -124,7 +124,7 @@ impl Job<'_> {
             Ok(old) if old.film.region() == region && old.scene == *saver.hash() => {
                 saver.found(&old.film);
                 if !self.manner.quiet {
-                    let share = 100.0 * old.film.finished_pixels() as f64 / region.pixels() as f64;
+                    let share = 100.0 * share_done(&old.film);
                     let (path, share) = (path.display(), short(share.floor()));
                     output::note(&format!(
                         "note: {path} has {share} % of this picture; this begins anew, `durer resume {path}` goes on"
@@ -157,9 +157,10 @@ impl Job<'_> {
             let simd = self.arguments.simd.unwrap_or_default();
             let (compiled, build) = timed(|| self.arguments.scene.compile_for(scene, simd, show));
             let compiled = compiled?;
-            let already = film.as_ref().map_or(0, Film::finished_pixels);
-            let watch = Watch { bar: Bar::new(interrupt.stop_flag(), already, show), saver };
-            let options = RenderOptions { threads: None, region: Some(region) };
+            let already = film.as_ref().map_or(0, Film::done);
+            let bar = Bar::new(interrupt.stop_flag(), already, show);
+            let watch = Watch { bar, saver, total: AtomicU64::new(region.pixels()) };
+            let options = RenderOptions { threads: None, region: Some(region), samples: self.arguments.sample_range };
             let (film, render) = timed(|| match film {
                 Some(film) => durer::render_on(&compiled, film, &options, &watch),
                 None => durer::render(&compiled, &options, &watch),
@@ -178,10 +179,12 @@ impl Job<'_> {
 
     /// Writes what there is, and says so.
     fn finish(&self, film: &Film, outcome: Outcome<'_>, mut report: Report) -> Result<Exit, Failure> {
-        let Outcome { file, options, layers, saver, show } = outcome;
-        let reached = |remaining| Some(Reached { finished: film.finished_pixels(), total: report.pixels(), remaining });
+        let Outcome { file, mut options, layers, saver, show } = outcome;
+        options.metadata.extend(film.sums().map(provenance::of_samples));
+        let (finished, total) = (film.done(), (film.done() as f64 / share_done(film).max(1e-9)).round() as u64);
+        let reached = |remaining| Some(Reached { finished, total, remaining });
         let (complete, interrupted) = (reached(Some(0.0)), reached(None));
-        if film.finished_pixels() == 0 {
+        if film.done() == 0 {
             show.tell("interrupted", interrupted);
             report.tell_nothing();
             return Err(Failure::Told(Exit::Interrupted));
@@ -259,22 +262,42 @@ impl Progress for Stop<'_> {
 struct Watch<'a> {
     bar: Bar<'a>,
     saver: Option<&'a Saver<'a>>,
+    /// How much there is to do, as last heard.
+    total: AtomicU64,
 }
 
 impl Progress for Watch<'_> {
-    fn finished(&self, pixels: u64, of: u64) {
-        self.bar.finished(pixels, of);
+    fn finished(&self, done: u64, of: u64) {
+        self.total.store(of, Ordering::Relaxed);
+        self.bar.finished(done, of);
     }
 
     fn advanced(&self, film: &Film) {
         if let Some(saver) = self.saver {
-            let (elapsed, remaining) = self.bar.times(film.region().pixels());
+            let (elapsed, remaining) = self.bar.times(self.total.load(Ordering::Relaxed));
             saver.advanced(film, remaining.map(|remaining| elapsed + remaining));
         }
     }
 
     fn stop(&self) -> bool {
         self.bar.stop()
+    }
+
+    fn elapsed(&self) -> Option<f64> {
+        self.bar.elapsed()
+    }
+}
+
+/// How much of a film is done, from 0 to 1; of one that takes samples where there is noise, at least.
+fn share_done(film: &Film) -> f64 {
+    match film.sums() {
+        _ if film.is_complete() => 1.0,
+        Some(sums) => {
+            let wanted: u64 =
+                sums.parts.iter().map(|part| part.region.pixels() * u64::from(part.samples.count())).sum();
+            sums.samples() as f64 / wanted as f64
+        }
+        None => film.finished_pixels() as f64 / film.region().pixels() as f64,
     }
 }
 
@@ -300,6 +323,11 @@ fn same_place(a: &Path, b: &Path) -> bool {
         folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
     };
     a.file_name() == b.file_name() && folder(a) == folder(b)
+}
+
+/// Of a pixel in a checkpoint.
+fn checkpoint_bytes_a_pixel(scene: &CheckedScene) -> u64 {
+    if scene.scene().render.integrator.takes_samples() { 77 } else { 14 }
 }
 
 fn saving_from_the_start(arguments: &Arguments) -> bool {
