@@ -9,8 +9,8 @@ use durer::imaging::{EncodeOptions, FileFormat};
 #[derive(Args, Debug)]
 #[command(next_help_heading = "The file")]
 pub(super) struct LayerOptions {
-    /// Layers of an EXR file: `all`, or names from beauty, albedo, normal, depth, position, uv, object_id and material_id,
-    /// with commas between [default: beauty]
+    /// Layers of an EXR file: `all`, or names from beauty, albedo, normal, depth, position, uv, object_id, material_id and,
+    /// of pictures by samples, direct, indirect, variance and samples, with commas between [default: beauty]
     #[arg(long, value_name = "NAMES", value_parser = layers)]
     layers: Option<Chosen>,
 }
