@@ -5,6 +5,7 @@ use durer_math::Rgb;
 use durer_render::{
     CompiledScene, Film, Progress, Region, RenderError, RenderOptions, SeenFirst, Sums, direct_light, seen_first,
 };
+use durer_scene::Integrator;
 
 /// A layer that a film file can have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -73,6 +74,15 @@ impl FilmLayer {
     /// That of this name.
     pub fn named(name: &str) -> Option<FilmLayer> {
         FilmLayer::ALL.into_iter().find(|layer| layer.name() == name)
+    }
+
+    /// True if pictures by this integrator have it.
+    pub fn is_of(self, integrator: &Integrator) -> bool {
+        match self.source() {
+            Source::Picture | Source::SeenFirst => true,
+            Source::Paths => matches!(integrator, Integrator::Path { .. }),
+            Source::Sums => integrator.takes_samples(),
+        }
     }
 
     /// What it is made of.

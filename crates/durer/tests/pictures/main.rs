@@ -26,7 +26,9 @@ mod robustness;
 mod room;
 mod seed_tracer;
 mod shading;
+
 mod shadows;
+mod shown;
 mod silhouettes;
 mod solids;
 mod support;

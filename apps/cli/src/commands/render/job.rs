@@ -50,12 +50,12 @@ impl Job<'_> {
         }
         let format = target::format_of(&path)?;
         let mut options = arguments.file.encode_options(format)?;
-        let layers = arguments.layers.of_file(format)?;
         let (loaded, load) = timed(|| arguments.scene.load_with_sources(show));
         let (scene, sources) = loaded?;
         let fingerprint = durer::scene_fingerprint(scene.scene(), &sources);
         let scene = arguments.overrides.apply(scene)?;
         options.metadata = provenance::of_render(fingerprint, scene.scene(), arguments.crop);
+        let layers = arguments.layers.of_file(format, &scene.scene().render.integrator)?;
         let picture = scene.scene().picture;
         (options.transfer, options.exposure, options.tone_mapping) =
             (picture.transfer, picture.exposure, picture.tone_mapping);
