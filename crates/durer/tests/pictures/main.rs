@@ -26,7 +26,6 @@ mod robustness;
 mod room;
 mod seed_tracer;
 mod shading;
-
 mod shadows;
 mod shown;
 mod silhouettes;

