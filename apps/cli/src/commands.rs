@@ -3,6 +3,7 @@
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;
+pub(crate) mod develop;
 pub(crate) mod explain;
 pub(crate) mod heatmap;
 pub(crate) mod info;
@@ -24,6 +25,7 @@ pub(crate) fn run(command: &Command) -> Result<Exit, Failure> {
         Command::Explain(arguments) => explain::run(arguments),
         Command::Heatmap(arguments) => heatmap::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
+        Command::Develop(arguments) => develop::run(arguments),
         Command::Schema => schema::run(),
         Command::Completions(arguments) => completions::run(arguments),
         Command::Man(arguments) => man::run(arguments),

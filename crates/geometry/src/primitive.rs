@@ -60,6 +60,7 @@ macro_rules! each_kind {
 const MOST_CROSSINGS: u32 = 100_000;
 
 pub(crate) mod operand;
+mod pieces;
 
 /// A shape placed in the world by an affine map, which may scale, shear and mirror it.
 #[derive(Clone, Debug)]

@@ -19,7 +19,7 @@ use crate::whitted_reading::Means;
 use contents::Contents;
 use durer_geometry::{Bounds, BuildFor, Hit, Plan, Primitive, SimdLevel, Vantage, World};
 use durer_math::Rgb;
-use durer_scene::{CheckedScene, Picture, RenderSettings, Scene, Trees};
+use durer_scene::{CheckedScene, Integrator, Picture, RenderSettings, Scene, Trees};
 use imports::Brought;
 use looks::Looks;
 use rayon::prelude::*;
@@ -110,7 +110,7 @@ pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
     let camera = scene.camera.as_ref().or(brought.camera.as_ref());
     let camera = Camera::compile(camera, world.bounds(), width, height);
     let attenuates = |looks: &Looks| looks.is_medium && materials[looks.material as usize].attenuation.is_some();
-    CompiledScene {
+    let mut compiled = CompiledScene {
         attenuates: objects.iter().any(|object| attenuates(&object.looks)),
         has_holes: objects.iter().any(|object| object.looks.has_holes),
         media_at_eye: media_at_eye(&objects, &world, &camera),
@@ -130,6 +130,19 @@ pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
         fog: scene.fog.as_ref().map(Fog::compile),
         picture: scene.picture,
         settings: scene.render,
+    };
+    if looks_for_light(&scene.render) {
+        compiled.emitters = Emitters::of(&compiled);
+    }
+    compiled
+}
+
+/// True if there is use for knowing all that gives light.
+fn looks_for_light(settings: &RenderSettings) -> bool {
+    match settings.integrator {
+        Integrator::Path { .. } => true,
+        Integrator::Whitted => settings.light_samples > 0,
+        Integrator::AmbientOcclusion { .. } | Integrator::Normals | Integrator::Depth | Integrator::Uv => false,
     }
 }
 

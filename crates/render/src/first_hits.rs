@@ -5,6 +5,7 @@
 
 use crate::antialias::Antialias;
 use crate::compile::CompiledScene;
+use crate::eye::begin;
 use crate::film::Region;
 use durer_geometry::{Hit, LANES, Packet, Ray};
 use durer_math::DVec2;
@@ -49,7 +50,7 @@ impl FirstHits {
     }
 
     fn look(&mut self, scene: &CompiledScene, points: &[DVec2], places: &[usize]) {
-        let rays: arrayvec::ArrayVec<Ray, LANES> = points.iter().map(|&point| scene.camera.ray(point)).collect();
+        let rays: arrayvec::ArrayVec<Ray, LANES> = points.iter().map(|&point| begin(scene, point).0).collect();
         let hits = scene.world.closest_hits(&Packet::new(&rays), f64::INFINITY, u32::MAX);
         for (&place, hit) in places.iter().zip(hits) {
             self.hits[place] = hit;

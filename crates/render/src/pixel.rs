@@ -2,10 +2,10 @@
 
 use crate::antialias::{Antialias, Sample, Samples};
 use crate::compile::CompiledScene;
+use crate::eye::begin;
 use crate::film::Account;
 use crate::holes::Known;
 use crate::integrators::Integrator;
-use crate::sampler::Sampler;
 use durer_geometry::Hit;
 use durer_math::{DVec2, Rgb};
 
@@ -50,8 +50,7 @@ impl<I: Integrator> Samples for Gathered<'_, I> {
             (None, Some(vantage)) => Known::Vantage(vantage),
             (None, None) => Known::Nothing,
         };
-        let ray = self.scene.camera.ray(at);
-        let sampler = Sampler::of_place(0, at);
+        let (ray, sampler) = begin(self.scene, at);
         let mut color = self.integrator.radiance(self.scene, &ray, known, &sampler, &mut self.account.rays);
         if !color.is_finite() {
             self.account.bad_sample(at);

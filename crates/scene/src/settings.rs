@@ -119,6 +119,14 @@ impl Integrator {
     /// The path tracer, as it is unless something else is said.
     pub const PATH: Integrator = Integrator::Path { max_depth: 16, clamp: None };
 
+    /// True if it takes samples at random; the others look where anti-aliasing says.
+    pub fn takes_samples(&self) -> bool {
+        match self {
+            Integrator::Path { .. } | Integrator::AmbientOcclusion { .. } => true,
+            Integrator::Whitted | Integrator::Normals | Integrator::Depth | Integrator::Uv => false,
+        }
+    }
+
     /// The word for it in scene files and messages.
     pub fn word(&self) -> &'static str {
         match self {

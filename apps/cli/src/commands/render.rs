@@ -1,6 +1,7 @@
 //! `durer render`: from a scene file to a picture file.
 
 mod job;
+mod layers;
 mod manner;
 mod report;
 mod saver;
@@ -11,7 +12,8 @@ use crate::load::SceneArgs;
 use crate::overrides::Overrides;
 use crate::target::FileOptions;
 use clap::Args;
-use durer::{Origin, Region, SimdLevel};
+use durer::{Origin, Region, SampleRange, SimdLevel};
+use layers::LayerOptions;
 use saving::Saving;
 use std::path::{Path, PathBuf};
 
@@ -22,6 +24,7 @@ const EXAMPLES: &str = "\
 Examples:
   durer render room.yaml                                  writes room.png
   durer render room.yaml -o room.exr --bit-depth float
+  durer render room.yaml -o film.exr --layers all         see `durer develop --help`
   durer render bunny.ply                                  a model
   durer render room.yaml --width 1920 --antialias grid:4
   durer render room.yaml --crop 100,80,64,64 -o detail.png
@@ -49,6 +52,10 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
     crop: Option<Region>,
 
+    /// Take only these samples of each pixel, the last excluded: part of what several runs make together
+    #[arg(long, value_name = "FROM..TO", value_parser = sample_range, allow_hyphen_values = true)]
+    sample_range: Option<SampleRange>,
+
     #[command(flatten)]
     manner: Manner,
 
@@ -65,6 +72,9 @@ pub(crate) struct Arguments {
 
     #[command(flatten)]
     file: FileOptions,
+
+    #[command(flatten)]
+    layers: LayerOptions,
 }
 
 /// Renders the scene.
@@ -109,5 +119,14 @@ fn crop(text: &str) -> Result<Region, String> {
         Ok(&[_, _, 0, _] | &[_, _, _, 0]) => Err("width and height of the region must be at least 1".to_owned()),
         Ok(&[x, y, width, height]) => Ok(Region { x, y, width, height }),
         Ok(_) | Err(_) => Err("expected four whole numbers, X,Y,W,H, for example 100,80,64,64".to_owned()),
+    }
+}
+
+fn sample_range(text: &str) -> Result<SampleRange, String> {
+    let numbers = text.split_once("..").and_then(|(start, end)| Some((start.parse().ok()?, end.parse().ok()?)));
+    match numbers {
+        Some((start, end)) if start < end => Ok(SampleRange { start, end }),
+        Some(_) => Err("the second number must be greater than the first".to_owned()),
+        None => Err("expected two whole numbers, FROM..TO, for example 0..64".to_owned()),
     }
 }

@@ -2,6 +2,7 @@
 
 mod checkpoint;
 mod compare;
+mod develop;
 mod explain;
 mod heatmap;
 mod hostile;

@@ -150,7 +150,7 @@ impl<O: Observer> Path<'_, O> {
         let frame = Frame::around(shading.normal());
         let out = frame.to_local(-shading.direction);
         let bsdf = Bsdf::diffuse(shading.color * shading.material.diffuse);
-        let receiver = Receiver { point: shading.origin_back(), normal: shading.normal() };
+        let receiver = Receiver { point: shading.origin_back(), normal: shading.normal(), passes: false };
         let step = self.step();
         if !bsdf.is_specular() {
             self.aim(shading, &frame, &bsdf, &receiver);

@@ -26,13 +26,41 @@ impl Environment {
         Environment { texels, rotation: (functions::sin(angle), functions::cos(angle)), strength: map.strength }
     }
 
-    /// What is seen in a direction of unit length.
-    pub(crate) fn seen(&self, direction: DVec3) -> Rgb {
+    /// Pixels across and up.
+    pub(crate) fn size(&self) -> [u32; 2] {
+        self.texels.size()
+    }
+
+    /// What is seen in the middle of a pixel; rows count from below.
+    pub(crate) fn pixel(&self, column: u32, row: u32) -> Rgb {
+        self.texels.get(column, row) * self.strength
+    }
+
+    /// Where a direction of unit length is in the picture, in parts of its width and height, from the left and from below.
+    pub(crate) fn place(&self, direction: DVec3) -> [f64; 2] {
         let (sin, cos) = self.rotation;
         let (x, z) = (direction.x * cos - direction.z * sin, direction.x * sin + direction.z * cos);
+        [(functions::atan2(z, x) + PI) / TAU, functions::asin(direction.y.clamp(-1.0, 1.0)) / PI + 0.5]
+    }
+
+    /// The direction of unit length that is so far from the left, in parts of the width, and has this y.
+    pub(crate) fn direction(&self, from_left: f64, y: f64) -> DVec3 {
+        let (sin, cos) = self.rotation;
+        let (angle, across) = (from_left * TAU - PI, (1.0 - y * y).max(0.0).sqrt());
+        let (x, z) = (across * functions::cos(angle), across * functions::sin(angle));
+        DVec3::new(x * cos + z * sin, y, z * cos - x * sin)
+    }
+
+    /// The y of directions at the lower end of a row of pixels, of so many rows.
+    pub(crate) fn height_of(row: u32, rows: u32) -> f64 {
+        functions::sin((f64::from(row) / f64::from(rows) - 0.5) * PI)
+    }
+
+    /// What is seen in a direction of unit length.
+    pub(crate) fn seen(&self, direction: DVec3) -> Rgb {
         let [width, height] = self.texels.size();
-        let s = (functions::atan2(z, x) + PI) / TAU * f64::from(width) - 0.5;
-        let t = (functions::asin(direction.y.clamp(-1.0, 1.0)) / PI + 0.5) * f64::from(height) - 0.5;
+        let [across, up] = self.place(direction);
+        let (s, t) = (across * f64::from(width) - 0.5, up * f64::from(height) - 0.5);
         let (left, below) = (s.floor(), t.floor());
         let (across, up) = ((s - left) as f32, (t - below) as f32);
         let pixel = |column: f64, row: f64| {

@@ -5,7 +5,7 @@ use crate::numbers::{bytes, short, thousands};
 use crate::output;
 use durer::imaging::FileFormat;
 use durer::math::DVec2;
-use durer::{BadSample, Film, RayCounts, Region};
+use durer::{BadSample, Film, RayCounts, Region, Sums};
 use serde_json::json;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -22,10 +22,38 @@ pub(super) struct Report {
     rays_before: u64,
     bad_samples: u64,
     first_bad_sample: Option<BadSample>,
+    samples: Option<Samples>,
     bytes: usize,
     seconds: Seconds,
     /// What stopped it, if anything did.
     stopped_by: &'static str,
+}
+
+/// The samples of pixels.
+#[derive(Clone, Copy)]
+struct Samples {
+    least: u32,
+    most: u32,
+    mean: f64,
+    /// As many as a pixel was to have, at most.
+    wanted: u32,
+    /// The root of the mean variance of the pixels' luminances.
+    noise: f64,
+}
+
+impl Samples {
+    fn of(sums: &Sums) -> Samples {
+        let (least, most) = sums.least_and_most();
+        let pixels = sums.taken.len();
+        let known: Vec<f64> = (0..pixels).map(|pixel| sums.variance(pixel)).filter(|v| v.is_finite()).collect();
+        Samples {
+            least,
+            most,
+            mean: sums.samples() as f64 / pixels as f64,
+            wanted: sums.parts.iter().map(|part| part.samples.count()).max().unwrap_or(0),
+            noise: (known.iter().sum::<f64>() / known.len().max(1) as f64).sqrt(),
+        }
+    }
 }
 
 /// Seconds of wall time for each step.
@@ -50,6 +78,7 @@ impl Report {
             rays_before: 0,
             bad_samples: film.bad_samples(),
             first_bad_sample: film.first_bad_sample(),
+            samples: film.sums().map(Samples::of),
             bytes: 0,
             seconds: Seconds::default(),
             stopped_by: "interrupted",
@@ -132,9 +161,10 @@ impl Report {
         ));
     }
 
-    /// Of the pixels that are finished.
+    /// Of the pixels that are finished, or have samples.
     fn eye_rays_per_pixel(&self) -> f64 {
-        self.rays.eye as f64 / (self.finished.max(1)) as f64
+        let pixels = if self.samples.is_some() { self.pixels() } else { self.finished };
+        self.rays.eye as f64 / pixels.max(1) as f64
     }
 
     /// Says which samples had no colour.
@@ -153,6 +183,16 @@ impl Report {
 
     /// Says that the picture is not complete.
     pub(super) fn tell_interrupted(&self) {
+        if let Some(Samples { least, most, wanted, .. }) = self.samples {
+            let taken = if least == most { least.to_string() } else { format!("{least} to {most}") };
+            return output::note(&format!(
+                "{}: {} has {taken} of {wanted} samples a pixel; {} {}",
+                self.stopped_by,
+                self.written_path().display(),
+                self.path.display(),
+                self.fate(),
+            ));
+        }
         let share = 100.0 * self.finished as f64 / self.pixels() as f64;
         output::note(&format!(
             "{}: {} has {} of {} pixels ({} %), the others are black; {} {}",
@@ -191,6 +231,10 @@ impl Report {
                 "total": self.rays.total(), "cut_off": cut_off,
             },
             "eye_rays_per_pixel": self.eye_rays_per_pixel(),
+            "samples": self.samples.map(|Samples { least, most, mean, wanted, noise }| {
+                let a_second = mean * self.pixels() as f64 / render.max(1e-9);
+                json!({ "least": least, "most": most, "mean": mean, "wanted": wanted, "noise": noise, "per_second": a_second })
+            }),
             "mrays_per_second": self.mrays_per_second(),
             "seconds": { "load": load, "build": build, "render": render, "write": write },
             "bad_samples": self.bad_samples,

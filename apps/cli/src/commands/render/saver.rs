@@ -46,7 +46,7 @@ struct Turn {
     /// The file at the path is that of this render.
     is_ours: bool,
     has_failed: bool,
-    /// The file at the path has so many finished pixels from an earlier run; one with fewer does not take its place.
+    /// The film at the path has come so far in an earlier run; one that has not does not take its place.
     at_least: u64,
     next: Instant,
 }
@@ -76,7 +76,7 @@ impl<'a> Saver<'a> {
     pub(super) fn found(&self, film: &Film) {
         let mut turn = lock(&self.turn);
         turn.is_ours = true;
-        turn.at_least = film.finished_pixels();
+        turn.at_least = film.done();
     }
 
     pub(super) fn path(&self) -> &Path {
@@ -97,7 +97,7 @@ impl<'a> Saver<'a> {
             turn.next = Instant::now();
         }
         let is_time = turn.when == When::Always && !turn.is_busy && Instant::now() >= turn.next;
-        if !is_time || film.is_complete() || film.finished_pixels() <= turn.at_least {
+        if !is_time || film.is_complete() || film.done() <= turn.at_least {
             return;
         }
         turn.is_busy = true;
@@ -146,7 +146,7 @@ impl<'a> Saver<'a> {
 
     /// Writes a last checkpoint, now, unless there is one with more on it.
     pub(super) fn save(&self, film: &Film) -> io::Result<()> {
-        if film.finished_pixels() > lock(&self.turn).at_least {
+        if film.done() > lock(&self.turn).at_least {
             write_whole(&self.path, &encode_checkpoint(&self.origin, self.hash(), film))?;
         }
         Ok(())
