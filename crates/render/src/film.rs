@@ -1,5 +1,6 @@
 //! What has been gathered so far: the only thing that changes while rendering.
 
+mod merge;
 mod region;
 mod sums;
 
@@ -8,6 +9,7 @@ use durer_imaging::Image;
 use durer_math::{DVec2, Rgb};
 use std::cmp::Ordering::Equal;
 
+pub use merge::MergeError;
 pub use region::Region;
 pub(crate) use region::TILE;
 pub use sums::{Part, SampleRange, Sums};
@@ -113,8 +115,8 @@ impl Film {
     }
 
     /// A black film for these samples, none of which is taken.
-    pub(crate) fn of_samples(region: Region, samples: SampleRange) -> Film {
-        Film { sums: Some(Sums::new(Part { region, samples })), ..Film::new(region) }
+    pub(crate) fn of_samples(region: Region, samples: SampleRange, direct: bool) -> Film {
+        Film { sums: Some(Sums::new(Part { region, samples }, direct)), ..Film::new(region) }
     }
 
     /// Puts a film together; `None` if the parts do not fit each other.

@@ -33,7 +33,7 @@ fn scene(render: &str) -> CheckedScene {
     load_str(&text, "test", &NoAssets, &Limits::default()).unwrap().scene
 }
 
-const ONE_THREAD: RenderOptions = RenderOptions { threads: Some(1), region: None, samples: None };
+const ONE_THREAD: RenderOptions = RenderOptions { threads: Some(1), region: None, samples: None, direct: false };
 
 fn stopped_after(scene: &CompiledScene, region: Option<Region>, calls: usize) -> Film {
     let options = RenderOptions { region, ..ONE_THREAD };
