@@ -15,6 +15,7 @@ use crate::fog::Fog;
 use crate::lights::Light;
 use crate::materials::Material;
 use crate::textures::Textures;
+use crate::whitted_reading::Means;
 use contents::Contents;
 use durer_geometry::{Bounds, BuildFor, Hit, Plan, Primitive, SimdLevel, Vantage, World};
 use durer_math::Rgb;
@@ -156,7 +157,8 @@ fn purpose(trees: Trees) -> BuildFor {
 /// The scene's, and after them the default material.
 fn materials(scene: &Scene) -> Vec<Material> {
     let default = durer_scene::Material::default();
-    scene.materials.iter().chain([&default]).map(Material::compile).collect()
+    let mut means = Means::new(scene);
+    scene.materials.iter().chain([&default]).map(|material| Material::compile(material, &mut means)).collect()
 }
 
 /// The media that may be around the origin of one of the eye's rays.

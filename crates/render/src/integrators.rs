@@ -9,6 +9,9 @@ pub(crate) mod sharp;
 pub(crate) mod uv;
 pub(crate) mod whitted;
 
+#[cfg(test)]
+mod tests;
+
 use crate::compile::CompiledScene;
 use crate::holes::Known;
 use crate::observer::Observer;

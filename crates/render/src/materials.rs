@@ -1,6 +1,6 @@
 //! Materials, compiled for Whitted's algorithm: the numbers that shading reads, and the laws of reflection and refraction.
 
-use crate::whitted_reading::whitted;
+use crate::whitted_reading::{Means, whitted};
 use durer_math::{DVec3, Rgb, functions};
 use durer_scene::{Paint, Sides};
 
@@ -27,10 +27,10 @@ pub(crate) struct Material {
 }
 
 impl Material {
-    pub(crate) fn compile(material: &durer_scene::Material) -> Material {
+    pub(crate) fn compile(material: &durer_scene::Material, means: &mut Means<'_>) -> Material {
         let exponent =
             |a: &durer_scene::Attenuation| a.color.map(|c| (functions::ln(f64::from(c)) / a.distance) as f32);
-        let classic = &whitted(&material.kind);
+        let classic = &whitted(&material.kind, means);
         let mut compiled = Material {
             color: classic.color,
             ambient: classic.ambient,
@@ -218,10 +218,9 @@ mod tests {
     fn attenuation_gives_its_color_at_its_distance_and_the_square_at_twice_that() {
         let color = Rgb::new(0.5, 0.8, 1.0);
         let attenuation = Some(durer_scene::Attenuation { color, distance: 3.0 });
-        let material = Material::compile(&durer_scene::Material::of(MaterialKind::Classic(Classic {
-            attenuation,
-            ..Default::default()
-        })));
+        let kind = MaterialKind::Classic(Classic { attenuation, ..Default::default() });
+        let scene = durer_scene::Scene::default();
+        let material = Material::compile(&durer_scene::Material::of(kind), &mut Means::new(&scene));
         let near = |a: Rgb, b: Rgb| (a - b).map(f32::abs).max_component() < 1e-6;
         assert!(near(material.transmittance(3.0), color) && near(material.transmittance(6.0), color * color));
         assert_eq!(material.transmittance(f64::INFINITY), Rgb::new(0.0, 0.0, 1.0));

@@ -197,3 +197,45 @@ fn statistics_are_json_in_place_of_the_line() {
     assert_eq!(stats["rays"]["total"], total);
     assert!(["load", "build", "render", "write"].iter().all(|step| stats["seconds"][step].as_f64().unwrap() >= 0.0));
 }
+
+#[test]
+fn films_have_the_layers_that_are_asked_for() {
+    let workshop = Workshop::new();
+    workshop.fine("render room.yaml -o film.exr --layers all");
+    let list = workshop.fine("develop film.exr --list").stdout;
+    let names: Vec<&str> = list.lines().filter_map(|line| line.split(' ').next()).collect();
+    let expected = ["beauty", "albedo", "depth", "material_id", "normal", "object_id", "position", "uv"];
+    assert_eq!(names, expected, "{list}");
+    assert!(list.contains("depth        24 × 16  Z float\n"), "{list}");
+    for name in expected {
+        workshop.fine(&format!("develop film.exr --layer {name} -o {name}.png"));
+        let shown = workshop.picture(&format!("{name}.png"));
+        assert!(shown.pixels.iter().any(|pixel| *pixel != shown.pixels[0]), "{name} is one color");
+    }
+    workshop.fine("render room.yaml -o some.exr --layers depth,beauty --crop 3,4,10,8 --bit-depth float");
+    let list = workshop.fine("develop some.exr --list").stdout;
+    assert_eq!(list, "beauty  10 × 8  R float, G float, B float\ndepth   10 × 8  Z float\n");
+    workshop.fine("render room.yaml -o plain.exr");
+    workshop.fine("render room.yaml -o beauty.exr --layers beauty");
+    assert_eq!(workshop.bytes("plain.exr"), workshop.bytes("beauty.exr"));
+    workshop.fails("render room.yaml -o a.png --layers all", 2, "only EXR has layers");
+    workshop.fails("render room.yaml -o a.exr --layers all,deep", 2, "no layer `all`; there are beauty, albedo");
+}
+
+/// What is rendered at once is what is developed later.
+#[test]
+fn films_are_developed_as_pictures_are_rendered() {
+    let workshop = Workshop::new();
+    let settings = "width: 24, height: 16, exposure: 1.5, tone_mapping: agx";
+    let room = crate::workshop::ROOM.replace("width: 24, height: 16", settings);
+    workshop.put("room.yaml", &room);
+    workshop.fine("render room.yaml -o at-once.png");
+    workshop.fine("render room.yaml -o film.exr --bit-depth float --layers all");
+    workshop.fine("develop film.exr -o later.png");
+    assert_eq!(workshop.picture("at-once.png"), workshop.picture("later.png"));
+    workshop.fine("develop film.exr -o plain.png --exposure 0 --tone-mapping none");
+    workshop.put("room.yaml", crate::workshop::ROOM);
+    workshop.fine("render room.yaml -o plain-at-once.png");
+    assert_eq!(workshop.picture("plain-at-once.png"), workshop.picture("plain.png"));
+    assert_ne!(workshop.picture("plain.png"), workshop.picture("later.png"));
+}

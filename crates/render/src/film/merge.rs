@@ -83,6 +83,7 @@ impl Film {
         }
         into.parts = joined(all, around);
         merged.pixels = (0..into.taken.len()).map(|pixel| into.mean(pixel)).collect();
+        merged.samples = into.samples();
         (merged.sums, merged.account) = (Some(into), account);
         merged.finished.fill(true);
         merged.finished_pixels = around.region.pixels();

@@ -129,6 +129,7 @@ impl Sums {
             taken.iter().zip(counts).all(|(taken, [a, b])| a.checked_add(*b).is_some_and(|sum| sum <= *taken));
         let is_begun = |part: &Part| part.region == region && taken.iter().all(|&taken| taken <= part.samples.count());
         all_there
+            && (direct.is_empty() || direct.len() as u64 == length)
             && counted
             && parts_fit(parts, region)
             && (is_finished || matches!(&parts[..], [part] if is_begun(part)))
