@@ -60,12 +60,12 @@ fn statistics_tell_of_samples() {
     assert_eq!((&samples["least"], &samples["most"], &samples["wanted"]), (&8.into(), &8.into(), &8.into()));
     assert!(samples["noise"].as_f64().unwrap() > 0.0 && samples["per_second"].as_f64().unwrap() > 0.0);
     assert!(workshop.fine("render room.yaml --width 8 -o b.png --stats json").json()["samples"].is_null());
-    workshop.put("noise.yaml", &BALL.replace("samples: 8", "samples: 200, noise: 0.02"));
+    workshop.put("noise.yaml", &BALL.replace("samples: 8", "samples: 400, noise: 0.05"));
     let stats = workshop.fine("render noise.yaml -o n.png --stats json").json();
     let (least, most) = (stats["samples"]["least"].as_u64().unwrap(), stats["samples"]["most"].as_u64().unwrap());
-    assert!(least == 16 && most > 16 && most <= 200, "{least} {most}");
+    assert!(16 <= least && least < most && most <= 400, "{least} {most}");
     let about = workshop.fine("info n.png").stdout;
-    assert!(about.contains("Noise") && about.contains(&format!("16 to {most}")), "{about}");
+    assert!(about.contains("Noise") && about.contains(&format!("{least} to {most}")), "{about}");
 }
 
 /// A limit of time tells how many samples there were, and that many give the same colors.
