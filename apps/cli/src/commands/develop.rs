@@ -21,11 +21,11 @@ Examples:
   durer develop film.exr --list                            the layers in it
   durer develop film.exr --layer normal                    writes film.normal.png
 
-Exposure, tone mapping and curve are those that the scene asked for, unless others are given;
-`durer render room.yaml -o film.exr` keeps them in the file. Light can be had from EXR, HDR,
-PFM, PNG and JPEG. Layers of other numbers are shown so: normals from 0 to 1, places between
-their bounds, depth from near (white) to far, numbers that name things and counts in false
-colors.";
+Exposure, tone mapping and curve are those that the scene asked for, unless others are
+given; `durer render room.yaml -o film.exr --layers all` keeps them and more in the file.
+Light can be had from EXR, HDR, PFM, PNG and JPEG. Layers of other numbers are shown so:
+normals from 0 to 1, places between their bounds, depth from near (white) to far (dark),
+numbers that name things and counts in false colors.";
 
 /// Make a picture for screens of a film file, without rendering again
 #[derive(Args, Debug)]
@@ -78,14 +78,14 @@ struct Development {
     transfer: Option<String>,
 }
 
-fn exposure(text: &str) -> Result<f32, String> {
+pub(crate) fn exposure(text: &str) -> Result<f32, String> {
     match text.parse() {
         Ok(stops) if (-100.0..=100.0).contains(&stops) => Ok(stops),
         Ok(_) | Err(_) => Err("expected a number from -100 to 100".to_owned()),
     }
 }
 
-fn tone_mappings() -> PossibleValuesParser {
+pub(crate) fn tone_mappings() -> PossibleValuesParser {
     PossibleValuesParser::new(ToneMapping::ALL.map(ToneMapping::word))
 }
 

@@ -7,6 +7,7 @@ use super::record::{
 use super::tree::{Node, NodeKind};
 use super::value::{Value, number_text};
 use super::write::{FieldsOut, Out, Writer};
+use crate::diagnostics::Complaint;
 use durer_imaging::{ToneMapping, Transfer};
 use durer_math::Rgb;
 use durer_scene::{
@@ -222,6 +223,10 @@ impl Value for Background {
     fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
         match &node.kind {
             NodeKind::Mapping(_) if ["image", "rotation", "strength"].iter().any(|key| node.get(key).is_some()) => {
+                if node.get("image").is_none() {
+                    let complaint = Complaint::error(node.span, "`background` needs `image`");
+                    return cx.complain(complaint.help("for example `background: {image: sky.hdr, rotation: 90}`"));
+                }
                 super::record::decode_record("background", node, cx).map(Background::Image)
             }
             NodeKind::Mapping(_) => super::record::decode_record("background", node, cx)
