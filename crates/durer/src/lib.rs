@@ -40,6 +40,6 @@ pub use durer_render::{
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};
 pub use files::{PictureFile, ReadError, WriteError, picture_facts, picture_layers, read_layers, read_picture};
-pub use film_layers::{FilmLayer, film_layers};
+pub use film_layers::{Beside, FilmLayer, film_layers};
 pub use scene_hash::SceneHash;
 pub use whole::{temporary_beside, write_whole};

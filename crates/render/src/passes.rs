@@ -4,7 +4,10 @@
 //! Which samples are taken depends on nothing but the sums of those that are there. Only a limit of time depends on the
 //! machine: it ends after some pass, and the film then says how many samples that was.
 
+mod direct;
 mod noise;
+
+pub use direct::direct_light;
 
 use crate::compile::CompiledScene;
 use crate::film::{Film, PixelSums, Region, SampleRange, SampledTile, TILE};

@@ -12,8 +12,8 @@ use crate::progress::{Bar, Phase, Reached, Show};
 use crate::{output, provenance, target};
 use durer::imaging::{EncodeOptions, Image, Layers};
 use durer::{
-    CheckedScene, Checkpoint, Film, Origin, PictureFile, Progress, Region, RenderError, RenderOptions, SceneHash,
-    SeenFirst, Sources, film_layers, read_checkpoint, temporary_beside,
+    Beside, CheckedScene, Checkpoint, Film, FilmLayer, Origin, PictureFile, Progress, Region, RenderError,
+    RenderOptions, SceneHash, Sources, film_layers, read_checkpoint, temporary_beside,
 };
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -50,12 +50,12 @@ impl Job<'_> {
         }
         let format = target::format_of(&path)?;
         let mut options = arguments.file.encode_options(format)?;
-        let layers = arguments.layers.of_file(format)?;
         let (loaded, load) = timed(|| arguments.scene.load_with_sources(show));
         let (scene, sources) = loaded?;
         let fingerprint = durer::scene_fingerprint(scene.scene(), &sources);
         let scene = arguments.overrides.apply(scene)?;
         options.metadata = provenance::of_render(fingerprint, scene.scene(), arguments.crop);
+        let layers = arguments.layers.of_file(format, &scene.scene().render.integrator)?;
         let picture = scene.scene().picture;
         (options.transfer, options.exposure, options.tone_mapping) =
             (picture.transfer, picture.exposure, picture.tone_mapping);
@@ -80,12 +80,12 @@ impl Job<'_> {
             }
         }
         let rays_before = film.as_ref().map_or(0, |film| film.rays().total());
-        let wants_seen = layers.iter().flatten().any(|layer| layer.is_seen_first());
-        let (film, seen, [build, render]) =
-            self.trace(&scene, (film, region, wants_seen), &interrupt, saver.as_ref(), show)?;
+        let wanted = layers.as_deref().unwrap_or_default();
+        let (film, beside, [build, render]) =
+            self.trace(&scene, (film, region, wanted), &interrupt, saver.as_ref(), show)?;
         let report = Report::new(arguments.scene.path.clone(), path, format, &film).after(rays_before);
         let report = report.with_seconds(Seconds { load, build, render, write: 0.0 }).stopped_by(interrupt.reason());
-        let layers = layers.map(|layers| film_layers(&film, seen.as_ref(), &layers, options.exr_samples));
+        let layers = layers.map(|layers| film_layers(&film, &beside, &layers, options.exr_samples));
         self.finish(&film, Outcome { file, options, layers, saver: saver.as_ref(), show }, report)
     }
 
@@ -144,15 +144,15 @@ impl Job<'_> {
         }
     }
 
-    /// The film, what is seen first if that is wanted, and the seconds for building and for tracing.
+    /// The film, what there is to know beside it for the layers that are wanted, and the seconds for building and for tracing.
     fn trace(
         &self,
         scene: &CheckedScene,
-        (film, region, wants_seen): (Option<Film>, Region, bool),
+        (film, region, layers): (Option<Film>, Region, &[FilmLayer]),
         interrupt: &Interrupt,
         saver: Option<&Saver<'_>>,
         show: Show,
-    ) -> Result<(Film, Option<SeenFirst>, [f64; 2]), Failure> {
+    ) -> Result<(Film, Beside, [f64; 2]), Failure> {
         durer::with_threads(self.manner.threads.map(usize::from), || {
             let simd = self.arguments.simd.unwrap_or_default();
             let (compiled, build) = timed(|| self.arguments.scene.compile_for(scene, simd, show));
@@ -169,11 +169,9 @@ impl Job<'_> {
             if let Some(saver) = saver {
                 saver.settle();
             }
-            let seen = match wants_seen {
-                true => Some(durer::seen_first(&compiled, &options, &Stop(interrupt.stop_flag()))?),
-                false => None,
-            };
-            Ok((film?, seen, [build, render]))
+            let film = film?;
+            let beside = Beside::find(&compiled, &film, layers, None, &Stop(interrupt.stop_flag()))?;
+            Ok((film, beside, [build, render]))
         })?
     }
 
