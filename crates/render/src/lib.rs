@@ -4,7 +4,6 @@
 
 mod antialias;
 mod background;
-#[allow(dead_code)] // until the path tracer is wired
 mod bsdf;
 mod camera;
 mod compile;
@@ -16,7 +15,6 @@ mod film;
 mod filter_sampling;
 mod first_hits;
 mod fog;
-#[allow(dead_code)]
 mod frame;
 mod heatmap;
 mod holes;
@@ -33,6 +31,7 @@ mod sampler;
 mod schedule;
 mod seen_first;
 mod shading;
+mod surfaces;
 mod textures;
 mod visibility;
 mod whitted_reading;

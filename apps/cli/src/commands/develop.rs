@@ -21,11 +21,11 @@ Examples:
   durer develop film.exr --list                            the layers in it
   durer develop film.exr --layer normal                    writes film.normal.png
 
-Exposure, tone mapping and curve are those that the scene asked for, unless others are given;
-`durer render room.yaml -o film.exr` keeps them in the file. Light can be had from EXR, HDR,
-PFM, PNG and JPEG. Layers of other numbers are shown so: normals from 0 to 1, places between
-their bounds, depth from near (white) to far, numbers that name things and counts in false
-colors.";
+Exposure, tone mapping and curve are those that the scene asked for, unless others are
+given; `durer render room.yaml -o film.exr --layers all` keeps them and more in the file.
+Light can be had from EXR, HDR, PFM, PNG and JPEG. Layers of other numbers are shown so:
+normals from 0 to 1, places between their bounds, depth from near (white) to far (dark),
+numbers that name things and counts in false colors.";
 
 /// Make a picture for screens of a film file, without rendering again
 #[derive(Args, Debug)]

@@ -219,6 +219,12 @@ fn films_have_the_layers_that_are_asked_for() {
     workshop.fine("render room.yaml -o beauty.exr --layers beauty");
     assert_eq!(workshop.bytes("plain.exr"), workshop.bytes("beauty.exr"));
     workshop.fails("render room.yaml -o a.png --layers all", 2, "only EXR has layers");
+    workshop.fails("render room.yaml -o a.exr --layers direct", 2, "pictures by `whitted` have no layer `direct`");
+    let settings = "antialias: none, integrator: path, samples: 4";
+    workshop.put("paths.yaml", &crate::workshop::ROOM.replace("antialias: none", settings));
+    workshop.fine("render paths.yaml -o paths.exr --layers samples,direct");
+    let list = workshop.fine("develop paths.exr --list").stdout;
+    assert_eq!(list, "direct   24 × 16  R half, G half, B half\nsamples  24 × 16  N integer\n");
     workshop.fails("render room.yaml -o a.exr --layers all,deep", 2, "no layer `all`; there are beauty, albedo");
 }
 

@@ -46,7 +46,7 @@ record!(RenderSettings {
     noise: Option<f32> = None => "Where light is sampled at random: samples are taken until the error of each part of the picture is below this, as part of the white of a screen; 0.0001 to 1.";
     time: Option<f64> = None => "Begins no samples after this many seconds.";
     seed: u32 = 0 => "Where light is sampled at random: another number gives other noise.";
-    light_samples: u32 = 16 => "`whitted`: shadow rays to each light that has an area; 1 to 4096.";
+    light_samples: u32 = 16 => "`whitted`: shadow rays to each light that has an area, up to 4096; with 0, what glows lights nothing.";
     max_depth: u32 = RenderSettings::default().max_depth
         => "`whitted`: longest chain of rays: the eye's ray has depth 1, and rays deeper than this are black; 1 to 100.";
     min_weight: f32 = 0.001 => "`whitted`: rays that count less than this in the pixel are not traced; 0 traces all.";

@@ -12,8 +12,8 @@ use crate::progress::{Bar, Phase, Reached, Show};
 use crate::{output, provenance, target};
 use durer::imaging::{EncodeOptions, Image, Layers};
 use durer::{
-    CheckedScene, Checkpoint, Film, Origin, PictureFile, Progress, Region, RenderError, RenderOptions, SceneHash,
-    SeenFirst, Sources, WriteError, film_layers, read_checkpoint, temporary_beside,
+    CheckedScene, Checkpoint, Film, FilmLayer, Origin, PictureFile, Progress, Region, RenderError, RenderOptions,
+    SceneHash, SeenFirst, Sources, WriteError, film_layers, read_checkpoint, seen_first, temporary_beside,
 };
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -55,15 +55,24 @@ impl Job<'_> {
             return Err(Failure::usage("--checkpoint: the checkpoint cannot be the same file as the picture"));
         }
         let format = if target::is_film(&path) { None } else { Some(target::format_of(&path)?) };
-        let (mut options, layers) = match format {
-            Some(format) => (arguments.file.encode_options(format)?, arguments.layers.of_file(format)?),
-            None => arguments.file.of_no_picture().map(|()| (EncodeOptions::default(), None))?,
+        let mut options = match format {
+            Some(format) => arguments.file.encode_options(format)?,
+            None => arguments.file.of_no_picture().map(|()| EncodeOptions::default())?,
         };
         let (loaded, load) = timed(|| arguments.scene.load_with_sources(show));
         let (scene, sources) = loaded?;
         let fingerprint = durer::scene_fingerprint(scene.scene(), &sources);
         let scene = arguments.overrides.apply(scene)?;
         options.metadata = provenance::of_render(fingerprint, scene.scene(), arguments.crop);
+        let (integrator, exr) = (&scene.scene().render.integrator, durer::imaging::FileFormat::Exr);
+        let layers = match format {
+            Some(format) => arguments.layers.of_file(format, integrator)?,
+            // What a film knows beside the colors goes into the pictures that are made of it.
+            None => arguments.layers.of_file(exr, integrator)?.map(|mut layers| {
+                layers.retain(|layer| layer.is_of_paths());
+                layers
+            }),
+        };
         if !scene.scene().render.integrator.takes_samples() && (format.is_none() || arguments.sample_range.is_some()) {
             let integrator = scene.scene().render.integrator.word();
             return Err(Failure::usage(format!(
@@ -97,12 +106,13 @@ impl Job<'_> {
             }
         }
         let rays_before = film.as_ref().map_or(0, |film| film.rays().total());
-        let wants_seen = layers.iter().flatten().any(|layer| layer.is_seen_first());
+        let wanted = layers.as_deref().unwrap_or_default();
         let (film, seen, [build, render]) =
-            self.trace(&scene, (film, region, wants_seen), &interrupt, saver.as_ref(), show)?;
+            self.trace(&scene, (film, region, wanted), &interrupt, saver.as_ref(), show)?;
         let report =
             Report::new(arguments.scene.path.clone(), path, format, &film, picture.exposure).after(rays_before);
         let report = report.with_seconds(Seconds { load, build, render, write: 0.0 }).stopped_by(interrupt.reason());
+        let layers = layers.filter(|_| format.is_some());
         let layers = layers.map(|layers| film_layers(&film, seen.as_ref(), &layers, options.exr_samples));
         let what = match (format, &saver) {
             (Some(_), _) => What::Picture(options, layers),
@@ -167,11 +177,11 @@ impl Job<'_> {
         }
     }
 
-    /// The film, what is seen first if that is wanted, and the seconds for building and for tracing.
+    /// The film, what is seen first if layers want it, and the seconds for building and for tracing.
     fn trace(
         &self,
         scene: &CheckedScene,
-        (film, region, wants_seen): (Option<Film>, Region, bool),
+        (film, region, layers): (Option<Film>, Region, &[FilmLayer]),
         interrupt: &Interrupt,
         saver: Option<&Saver<'_>>,
         show: Show,
@@ -187,7 +197,7 @@ impl Job<'_> {
                 threads: None,
                 region: Some(region),
                 samples: self.arguments.sample_range,
-                direct: false,
+                direct: layers.iter().any(|layer| layer.is_of_paths()),
             };
             let (film, render) = timed(|| match film {
                 Some(film) => durer::render_on(&compiled, film, &options, &watch),
@@ -197,11 +207,12 @@ impl Job<'_> {
             if let Some(saver) = saver {
                 saver.settle();
             }
-            let seen = match wants_seen {
-                true => Some(durer::seen_first(&compiled, &options, &Stop(interrupt.stop_flag()))?),
-                false => None,
-            };
-            Ok((film?, seen, [build, render]))
+            let film = film?;
+            let wants_seen = layers.iter().any(|layer| layer.is_seen_first());
+            let options = RenderOptions { region: Some(film.region()), ..RenderOptions::default() };
+            let find_seen = || seen_first(&compiled, &options, &Stop(interrupt.stop_flag()));
+            let seen = wants_seen.then(find_seen).transpose()?;
+            Ok((film, seen, [build, render]))
         })?
     }
 
