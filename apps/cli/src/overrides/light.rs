@@ -29,8 +29,8 @@ pub(crate) struct Light {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u32>,
 
-    /// Shadow rays of `whitted` to each light that has an area
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096), allow_negative_numbers = true)]
+    /// Shadow rays of `whitted` to each light that has an area; with 0, what glows lights nothing
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=4096), allow_negative_numbers = true)]
     light_samples: Option<u32>,
 
     /// Makes a PNG or JPEG brighter by a factor of 2 for each 1
