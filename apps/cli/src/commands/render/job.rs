@@ -64,9 +64,14 @@ impl Job<'_> {
         let fingerprint = durer::scene_fingerprint(scene.scene(), &sources);
         let scene = arguments.overrides.apply(scene)?;
         options.metadata = provenance::of_render(fingerprint, scene.scene(), arguments.crop);
+        let (integrator, exr) = (&scene.scene().render.integrator, durer::imaging::FileFormat::Exr);
         let layers = match format {
-            Some(format) => arguments.layers.of_file(format, &scene.scene().render.integrator)?,
-            None => None,
+            Some(format) => arguments.layers.of_file(format, integrator)?,
+            // What a film knows beside the colors goes into the pictures that are made of it.
+            None => arguments.layers.of_file(exr, integrator)?.map(|mut layers| {
+                layers.retain(|layer| layer.is_of_paths());
+                layers
+            }),
         };
         if !scene.scene().render.integrator.takes_samples() && (format.is_none() || arguments.sample_range.is_some()) {
             let integrator = scene.scene().render.integrator.word();
@@ -107,6 +112,7 @@ impl Job<'_> {
         let report =
             Report::new(arguments.scene.path.clone(), path, format, &film, picture.exposure).after(rays_before);
         let report = report.with_seconds(Seconds { load, build, render, write: 0.0 }).stopped_by(interrupt.reason());
+        let layers = layers.filter(|_| format.is_some());
         let layers = layers.map(|layers| film_layers(&film, seen.as_ref(), &layers, options.exr_samples));
         let what = match (format, &saver) {
             (Some(_), _) => What::Picture(options, layers),
