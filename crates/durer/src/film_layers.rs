@@ -1,6 +1,6 @@
 //! The layers of a film file: the picture, and beside it what is known of each pixel.
 
-use durer_imaging::{BEAUTY, ExrSamples, Layer, Layers, Samples};
+use durer_imaging::{BEAUTY, Channel, ExrSamples, Layer, Layers, Samples};
 use durer_math::Rgb;
 use durer_render::{
     CompiledScene, Film, Progress, Region, RenderError, RenderOptions, SeenFirst, Sums, direct_light, seen_first,
@@ -104,7 +104,12 @@ impl FilmLayer {
     /// The most bytes that it takes in a file for each pixel, if nothing can be compressed; colors are in this precision.
     fn bytes(self, colors: ExrSamples) -> u64 {
         match self {
-            FilmLayer::Beauty | FilmLayer::Albedo | FilmLayer::Direct | FilmLayer::Indirect => match colors {
+            // With alpha.
+            FilmLayer::Beauty => match colors {
+                ExrSamples::Half => 8,
+                ExrSamples::Float => 16,
+            },
+            FilmLayer::Albedo | FilmLayer::Direct | FilmLayer::Indirect => match colors {
                 ExrSamples::Half => 6,
                 ExrSamples::Float => 12,
             },
@@ -145,6 +150,7 @@ enum Source {
 pub struct Beside {
     seen: Option<SeenFirst>,
     direct: Option<Vec<Rgb>>,
+    alpha: Option<Vec<f32>>,
 }
 
 impl Beside {
@@ -168,7 +174,18 @@ impl Beside {
             true => direct_light(scene, film, &options, progress)?,
             false => None,
         };
-        Ok(Beside { seen, direct })
+        Ok(Beside { seen, direct, alpha: None })
+    }
+
+    /// With how much of each pixel is there (see [`coverage`](crate::coverage)), as the alpha of the beauty.
+    #[must_use]
+    pub fn with_alpha(self, alpha: Vec<f32>) -> Beside {
+        Beside { alpha: Some(alpha), ..self }
+    }
+
+    /// How much of each pixel is there, if that was told.
+    pub fn alpha(&self) -> Option<&[f32]> {
+        self.alpha.as_deref()
     }
 }
 
@@ -182,7 +199,12 @@ pub fn film_layers(film: &Film, beside: &Beside, layers: &[FilmLayer], colors: E
     let seen = beside.seen.as_ref().filter(|seen| seen.region == film.region());
     let direct = beside.direct.as_ref().filter(|direct| direct.len() == film.pixels().len());
     let layer = |layer: &FilmLayer| match layer.source() {
-        Source::Picture => Some(Layer::of_colors(layer.name(), film.pixels(), colors)),
+        Source::Picture => {
+            let mut beauty = Layer::of_colors(layer.name(), film.pixels(), colors);
+            let alpha = beside.alpha.iter().map(|alpha| Samples::of(alpha.iter().copied(), colors));
+            beauty.channels.extend(alpha.map(|samples| Channel { name: "A".to_owned(), samples }));
+            Some(beauty)
+        }
         Source::SeenFirst => of_seen(*layer, seen?, colors),
         Source::Paths => of_paths(*layer, film.pixels(), direct?, colors),
         Source::Sums => of_sums(*layer, film.sums()?),
@@ -285,7 +307,7 @@ mod tests {
         assert_eq!(without.layers.len(), 1);
         let most = FilmLayer::most_bytes(&FilmLayer::ALL, ExrSamples::Float, 40, 30);
         let bytes = encode_layers(layers, &EncodeOptions::new(FileFormat::Exr)).unwrap().len() as u64;
-        assert!(bytes <= most && most < 40 * 30 * 98 + 30_000, "{bytes} of {most}");
+        assert!(bytes <= most && most < 40 * 30 * 102 + 30_000, "{bytes} of {most}");
     }
 
     #[test]

@@ -8,6 +8,7 @@ mod direct;
 mod noise;
 
 pub use direct::direct_light;
+pub(crate) use direct::same_samples_again;
 
 use crate::compile::CompiledScene;
 use crate::film::{Film, PixelSums, Region, SampleRange, SampledTile, TILE};

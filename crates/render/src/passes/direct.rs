@@ -5,7 +5,7 @@ use super::{Pass, Sampling};
 use crate::compile::CompiledScene;
 use crate::film::{Film, Part, TILE};
 use crate::filter_sampling::FilterSampling;
-use crate::integrators::path::PathTracer;
+use crate::integrators::{self, cutout::Cutout, path::PathTracer};
 use crate::schedule::{Progress, RenderError, RenderOptions, in_tiles, with_pool};
 use durer_math::Rgb;
 use durer_scene::Integrator;
@@ -29,33 +29,43 @@ pub fn direct_light(
     options: &RenderOptions,
     progress: &dyn Progress,
 ) -> Result<Option<Vec<Rgb>>, RenderError> {
-    let (Integrator::Path { max_depth, clamp }, Some(sums)) = (scene.settings.integrator, film.sums()) else {
-        return Ok(None);
-    };
+    let Integrator::Path { max_depth, clamp } = scene.settings.integrator else { return Ok(None) };
+    let tracer = PathTracer { max_depth: max_depth.min(SEGMENTS), clamp };
+    let integrator = Cutout { integrator: &tracer, shown: scene.shown };
+    same_samples_again((scene, &integrator), film, options, progress)
+}
+
+/// What another integrator makes of the very samples that a film is of: the means of its pixels, row by row.
+pub(crate) fn same_samples_again<I: integrators::Integrator>(
+    (scene, integrator): (&CompiledScene, &I),
+    film: &Film,
+    options: &RenderOptions,
+    progress: &dyn Progress,
+) -> Result<Option<Vec<Rgb>>, RenderError> {
+    let Some(sums) = film.sums() else { return Ok(None) };
     let (Some(first), Some(passes)) = (sums.parts.first(), passes_of(film, &sums.parts, &sums.taken)) else {
         return Ok(None);
     };
-    let tracer = PathTracer { max_depth: max_depth.min(SEGMENTS), clamp };
-    let mut direct = Film::of_samples(film.region(), first.samples);
+    let mut again = Film::of_samples(film.region(), first.samples);
     let total = film.done();
     with_pool(options, || {
         for (part, pass) in passes {
             let filter = FilterSampling::new(scene.settings.filter);
-            let sampling = Sampling { scene, integrator: &tracer, filter, first: part.samples.start };
+            let sampling = Sampling { scene, integrator, filter, first: part.samples.start };
             let tiles = part.region.cells(TILE).filter(|&tile| pass.wants(tile)).collect();
             in_tiles(
                 tiles,
                 progress,
-                &mut direct,
+                &mut again,
                 |tile| sampling.tile(tile, &pass),
-                |direct, tile| {
-                    direct.add(&tile);
-                    progress.finished(direct.done(), total);
+                |again, tile| {
+                    again.add(&tile);
+                    progress.finished(again.done(), total);
                 },
             );
         }
     })?;
-    Ok(Some(direct.pixels().to_vec()))
+    Ok(Some(again.pixels().to_vec()))
 }
 
 /// For each part of a film the samples that it has of its pixels. A film of one part has its first ones, as many as were

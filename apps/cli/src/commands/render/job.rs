@@ -35,6 +35,8 @@ struct Outcome<'a> {
     options: EncodeOptions,
     /// `None` for the picture alone.
     layers: Option<Layers>,
+    /// How much of each pixel is there, if not all.
+    alpha: Option<&'a [f32]>,
     saver: Option<&'a Saver<'a>>,
     show: Show,
 }
@@ -71,7 +73,7 @@ impl Job<'_> {
         interrupt.watch();
         let mut file = PictureFile::create(&path)?;
         interrupt.removes(file.temporary());
-        file.reserve(most_bytes(&options, layers.as_deref(), (region.width, region.height)))?;
+        file.reserve(most_bytes(&options, (layers.as_deref(), arguments.layers.alpha), (region.width, region.height)))?;
         if let Some(saver) = &saver {
             interrupt.removes(&temporary_beside(saver.path()));
             if is_new && saving_from_the_start(arguments) {
@@ -86,7 +88,8 @@ impl Job<'_> {
         let report = Report::new(arguments.scene.path.clone(), path, format, &film).after(rays_before);
         let report = report.with_seconds(Seconds { load, build, render, write: 0.0 }).stopped_by(interrupt.reason());
         let layers = layers.map(|layers| film_layers(&film, &beside, &layers, options.exr_samples));
-        self.finish(&film, Outcome { file, options, layers, saver: saver.as_ref(), show }, report)
+        let alpha = beside.alpha();
+        self.finish(&film, Outcome { file, options, layers, alpha, saver: saver.as_ref(), show }, report)
     }
 
     /// The part that is rendered, if it lies within the picture.
@@ -156,7 +159,10 @@ impl Job<'_> {
         durer::with_threads(self.manner.threads.map(usize::from), || {
             let simd = self.arguments.simd.unwrap_or_default();
             let (compiled, build) = timed(|| self.arguments.scene.compile_for(scene, simd, show));
-            let compiled = compiled?;
+            let mut compiled = compiled?;
+            if self.arguments.layers.alpha {
+                compiled.leave_out_background();
+            }
             let already = film.as_ref().map_or(0, Film::done);
             let bar = Bar::new(interrupt.stop_flag(), already, show);
             let watch = Watch { bar, saver, total: AtomicU64::new(region.pixels()) };
@@ -170,14 +176,21 @@ impl Job<'_> {
                 saver.settle();
             }
             let film = film?;
-            let beside = Beside::find(&compiled, &film, layers, None, &Stop(interrupt.stop_flag()))?;
+            let stop = Stop(interrupt.stop_flag());
+            let mut beside = Beside::find(&compiled, &film, layers, None, &stop)?;
+            if self.arguments.layers.alpha {
+                // Quick, and without it a part of a picture could not be seen.
+                let alpha = durer::coverage(compiled, &film, &options, &())?;
+                let why = "--alpha: it cannot be told which samples the film is of";
+                beside = beside.with_alpha(alpha.ok_or_else(|| Failure::usage(why))?);
+            }
             Ok((film, beside, [build, render]))
         })?
     }
 
     /// Writes what there is, and says so.
     fn finish(&self, film: &Film, outcome: Outcome<'_>, mut report: Report) -> Result<Exit, Failure> {
-        let Outcome { file, mut options, layers, saver, show } = outcome;
+        let Outcome { file, mut options, layers, alpha, saver, show } = outcome;
         options.metadata.extend(film.sums().map(provenance::of_samples));
         let (finished, total) = (film.done(), (film.done() as f64 / share_done(film).max(1e-9)).round() as u64);
         let reached = |remaining| Some(Reached { finished, total, remaining });
@@ -197,7 +210,10 @@ impl Job<'_> {
             let _phase = Phase::begin("writing", &self.arguments.output_path().to_string_lossy(), show);
             match layers {
                 Some(layers) => file.write_layers(layers, &options),
-                None => file.write(&image, &options),
+                None => match alpha {
+                    Some(alpha) => file.write_with_alpha(&image, alpha, &options),
+                    None => file.write(&image, &options),
+                },
             }
         });
         let kept = match (saver, bytes.is_ok() && report.is_complete()) {
