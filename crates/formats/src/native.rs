@@ -76,6 +76,13 @@ fn load_tree(text: &str, assets: &dyn Assets, limits: &Limits) -> (Option<Checke
                 let span = root.get("objects").map_or(Span::default(), |(key, _)| key.span);
                 complaints.push(Complaint::warning(span, "nothing to see: the scene has no objects"));
             }
+            // What is not there because it could not be read is not missed.
+            if !complaints.iter().any(Complaint::is_error) {
+                for remark in scene.remarks() {
+                    let span = place::span_of(&remark.place, &root, &decoder);
+                    complaints.push(Complaint::warning(span, remark.message).maybe_help(remark.help));
+                }
+            }
             let usable = !complaints.iter().any(Complaint::is_error);
             (usable.then_some(scene), complaints)
         }

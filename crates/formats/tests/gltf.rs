@@ -84,7 +84,7 @@ fn a_scene_imports_all_that_a_file_has() {
     assert_eq!(mesh.data.uvs, [[0.0, 1.0], [1.0, 1.0], [0.0, 0.0]]);
 
     let material = &scene.materials[flag.material.unwrap().0 as usize];
-    let Paint::Texture(texture) = material.as_classic().unwrap().color else { panic!("{material:?}") };
+    let Paint::Texture(texture) = material.paints()[0] else { panic!("{material:?}") };
     let Pattern::Image(image) = &scene.textures[texture.0 as usize].pattern else { panic!() };
     assert_eq!(scene.images[image.image.0 as usize].file, "models/cloth red.pfm");
 

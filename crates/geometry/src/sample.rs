@@ -106,6 +106,8 @@ pub(crate) struct Piece {
     origin: DVec3,
     world_from_form: DMat3,
     form_from_world: DMat3,
+    /// How many times larger volumes are in the world; `None` if the map keeps angles, and with them densities.
+    volume: Option<f64>,
     /// What the form's parts are counted from.
     first_part: u32,
     area: f64,
@@ -114,9 +116,12 @@ pub(crate) struct Piece {
 /// The constructors take the map from canonical space to the world.
 impl Piece {
     fn new(form: Form, map: &DAffine3, area: f64) -> Piece {
-        let form_from_world = map.matrix3.inverse();
         let (origin, world_from_form) = (map.translation, map.matrix3);
-        Piece { form, origin, world_from_form, form_from_world, first_part: 0, area }
+        let (form_from_world, volume) = match square_if_even(&world_from_form) {
+            Some(square) => (world_from_form.transpose() * (1.0 / square), None),
+            None => (world_from_form.inverse(), Some(world_from_form.determinant().abs())),
+        };
+        Piece { form, origin, world_from_form, form_from_world, volume, first_part: 0, area }
     }
 
     /// The unit ball.
@@ -131,7 +136,7 @@ impl Piece {
         let triangle = Triangle::new(corners);
         let (origin, identity) = (DVec3::ZERO, DMat3::IDENTITY);
         let (form, area) = (Form::Triangle(triangle), triangle.area());
-        Piece { form, origin, world_from_form: identity, form_from_world: identity, first_part: 0, area }
+        Piece { form, origin, world_from_form: identity, form_from_world: identity, volume: None, first_part: 0, area }
     }
 
     /// The square from (0, 0, 0) to (1, 0, 1).
@@ -256,12 +261,21 @@ impl Piece {
 
     /// How much denser directions are in the world than in the form's space.
     fn crowding(&self, way: DVec3) -> f64 {
-        if matches!(self.form, Form::Triangle(_)) {
-            return 1.0;
-        }
+        let Some(volume) = self.volume else { return 1.0 };
         let stretch = (self.world_from_form * way).length() / way.length();
-        stretch * stretch * stretch / self.world_from_form.determinant().abs()
+        stretch * stretch * stretch / volume
     }
+}
+
+/// The square of the factor by which a map stretches all lengths, if that is one.
+fn square_if_even(map: &DMat3) -> Option<f64> {
+    const SLACK: f64 = 1e-12;
+    let [x, y, z] = [map.x_axis, map.y_axis, map.z_axis];
+    let squares = [x, y, z].map(DVec3::length_squared);
+    let slack = squares[0] * SLACK;
+    let is_even = (squares[1] - squares[0]).abs() <= slack && (squares[2] - squares[0]).abs() <= slack;
+    let turns = x.dot(y).abs() <= slack && y.dot(z).abs() <= slack && z.dot(x).abs() <= slack;
+    (is_even && turns && squares[0] > 0.0).then_some(squares[0])
 }
 
 /// By how much a map stretches areas that are perpendicular to the three axes.

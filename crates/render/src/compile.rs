@@ -15,6 +15,7 @@ use crate::fog::Fog;
 use crate::integrators::cutout::Shown;
 use crate::lights::Light;
 use crate::materials::Material;
+use crate::surfaces::Scattering;
 use crate::textures::Textures;
 use crate::whitted_reading::Means;
 use contents::Contents;
@@ -40,6 +41,8 @@ pub struct CompiledScene {
     shared: GeometryMemory,
     /// The scene's, and after them the default material.
     pub(crate) materials: Vec<Material>,
+    /// What path tracing makes of them, in the same order.
+    pub(crate) scatterings: Vec<Scattering>,
     pub(crate) textures: Textures,
     /// The scene's, and after them those that imported files bring.
     pub(crate) lights: Vec<Light>,
@@ -128,6 +131,7 @@ pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
         shared,
         textures: Textures::compile(scene),
         materials,
+        scatterings: scatterings(scene),
         background: Background::compile(scene),
         ambient: scene.ambient,
         fog: scene.fog.as_ref().map(Fog::compile),
@@ -161,8 +165,20 @@ fn purpose(trees: Trees) -> BuildFor {
 /// The scene's, and after them the default material.
 fn materials(scene: &Scene) -> Vec<Material> {
     let default = durer_scene::Material::default();
-    let mut means = Means::new(scene);
-    scene.materials.iter().chain([&default]).map(|material| Material::compile(material, &mut means)).collect()
+    let (mut means, integrator) = (Means::new(scene), scene.render.integrator);
+    let all = scene.materials.iter().chain([&default]);
+    all.map(|material| Material::compile(material, &mut means, integrator)).collect()
+}
+
+/// What path tracing makes of the same.
+fn scatterings(scene: &Scene) -> Vec<Scattering> {
+    let default = durer_scene::Material::default();
+    let all = scene.materials.iter().chain([&default]).map(|material| Scattering::compile(&material.kind));
+    let all: Vec<Scattering> = all.collect();
+    if let Integrator::Path { .. } = scene.render.integrator {
+        all.iter().for_each(Scattering::prepare);
+    }
+    all
 }
 
 /// The media that may be around the origin of one of the eye's rays.

@@ -126,7 +126,7 @@ impl Emitters {
     }
 
     fn sample_near(&self, scene: &CompiledScene, receiver: &Receiver, choice: f64, at: DVec2) -> Option<LightSample> {
-        let (id, probability, _) = self.tree.sample(receiver, choice)?;
+        let (id, probability) = self.tree.sample(receiver, choice)?;
         let sample = match (id as usize).checked_sub(self.shapes.len()) {
             Some(lamp) => self.aim_at_lamp(scene, receiver.point, self.near_lamps[lamp] as usize, at)?,
             None => self.shapes.aim(scene, id as usize, receiver.point, at)?,
@@ -208,6 +208,28 @@ impl Emitters {
             true => 1.0 / kinds as f64,
             false => 0.0,
         })
+    }
+
+    /// A point on one of the glowing shapes.
+    pub(crate) fn sample_shape(
+        &self,
+        scene: &CompiledScene,
+        receiver: &Receiver,
+        choice: f64,
+        at: DVec2,
+    ) -> Option<LightSample> {
+        let (id, probability) = self.tree.sample(receiver, choice)?;
+        if id as usize >= self.shapes.len() {
+            return None;
+        }
+        let sample = self.shapes.aim(scene, id as usize, receiver.point, at)?;
+        Some(LightSample { pdf: sample.pdf * probability, ..sample })
+    }
+
+    /// True if there are glowing shapes.
+    #[inline]
+    pub(crate) fn has_shapes(&self) -> bool {
+        self.shapes.len() > 0
     }
 
     /// Glowing shapes.

@@ -4,7 +4,6 @@
 
 mod antialias;
 mod background;
-#[allow(dead_code)] // until the path tracer is wired
 mod bsdf;
 mod camera;
 mod compile;
@@ -16,7 +15,6 @@ mod film;
 mod filter_sampling;
 mod first_hits;
 mod fog;
-#[allow(dead_code)]
 mod frame;
 mod heatmap;
 mod holes;
@@ -33,6 +31,7 @@ mod sampler;
 mod schedule;
 mod seen_first;
 mod shading;
+mod surfaces;
 mod textures;
 mod visibility;
 mod whitted_reading;
@@ -43,10 +42,9 @@ pub use explain::{
     Contribution, Element, HitExplanation, HoleExplanation, LightExplanation, PixelExplanation, RayExplanation,
     SampleExplanation, explain,
 };
-pub use film::{BadSample, Film, FilmParts, Part, Region, SampleRange, Sums};
+pub use film::{BadSample, Film, FilmParts, MergeError, Part, Region, SampleRange, Sums};
 pub use heatmap::{HeatMap, heatmap};
 pub use memory::memory_needed;
 pub use observer::{NotTraced, RayCounts, RayKind, Scattering, Source, Weighing};
-pub use passes::direct_light;
 pub use schedule::{Progress, RenderError, RenderOptions, coverage, render, render_on, with_threads};
 pub use seen_first::{SeenFirst, seen_first};

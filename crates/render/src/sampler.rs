@@ -74,7 +74,6 @@ impl Sampler {
 
     /// Those of one of several rays that a sample is split into: of this number, less than `count`. Together they are as
     /// well distributed as so many samples, if their count is a power of two.
-    #[allow(dead_code)] // until surfaces are lit by several rays
     pub(crate) fn split(&self, number: u32, count: u32) -> Sampler {
         let index = self.index.reverse_bits().wrapping_mul(count).wrapping_add(number);
         Sampler { index: index.reverse_bits(), ..*self }

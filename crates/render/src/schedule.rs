@@ -33,6 +33,8 @@ pub struct RenderOptions {
     /// For integrators that take samples: exactly these of each pixel, whatever the scene says of noise and time. `None`
     /// takes what the scene says.
     pub samples: Option<SampleRange>,
+    /// For integrators that take samples: know light that met one surface at most apart. It changes no pixel.
+    pub direct: bool,
 }
 
 /// Hears of progress, and may stop the rendering. Called from several threads.
@@ -114,7 +116,7 @@ pub fn with_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + 
 pub fn render(scene: &CompiledScene, options: &RenderOptions, progress: &dyn Progress) -> Result<Film, RenderError> {
     let region = region_of(scene, options)?;
     let film = match (samples_of(scene, options)?, options.samples) {
-        (Some(samples), _) => Film::of_samples(region, samples),
+        (Some(samples), _) => Film::of_samples(region, samples, options.direct),
         (None, None) => Film::new(region),
         (None, Some(_)) => return Err(RenderError::NoSamples(scene.settings.integrator.word())),
     };

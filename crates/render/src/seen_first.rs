@@ -106,7 +106,7 @@ fn look(scene: &CompiledScene, (x, y): (u32, u32)) -> Pixel {
         };
         look_at_first_surface(scene, &ray, Known::Nothing, &mut Silent, |first, _| {
             if let Some(first) = first {
-                pixel.albedo += first.shading.color.map(|c| if c > 0.0 { c.min(1.0) } else { 0.0 });
+                pixel.albedo += first.shading.albedo(scene);
                 pixel.normal += first.shading.normal();
                 pixel.coverage += 1.0;
             }

@@ -29,7 +29,9 @@ pub(crate) fn whitted(kind: &MaterialKind, means: &mut Means<'_>) -> Classic {
         MaterialKind::Metal(metal) => self::metal(metal, means),
         MaterialKind::Glass(glass) => self::glass(glass, means),
         MaterialKind::Plastic(plastic) => self::plastic(plastic, means),
-        MaterialKind::Mirror(Mirror { color }) => Classic { reflection: means.of(*color), ..diffuse(0.0) },
+        MaterialKind::Mirror(Mirror { color }) => {
+            Classic { color: *color, reflection: means.of(*color), ..diffuse(0.0) }
+        }
         MaterialKind::Principled(principled) => self::principled(principled, means),
     }
 }
@@ -88,6 +90,7 @@ fn metal(metal: &Metal, means: &mut Means<'_>) -> Classic {
 fn glass(glass: &Glass, means: &mut Means<'_>) -> Classic {
     let (shininess, back) = (shininess(means.amount(glass.roughness)), straight_back(glass.ior));
     let clear = Classic {
+        color: glass.color,
         specular: highlight(Rgb::gray(back), shininess),
         shininess,
         transparency: means.of(glass.color),

@@ -56,7 +56,8 @@ pub struct RenderSettings {
     pub time: Option<f64>,
     /// Chooses among equally good sequences of random numbers: other seeds, other noise.
     pub seed: u32,
-    /// Shadow rays to each light that has an area, for each point that `whitted` shades.
+    /// Shadow rays to each light that has an area, for each point that `whitted` shades. With 0, what glows lights nothing,
+    /// and lamps with a radius are points.
     pub light_samples: u32,
     /// `whitted`: longest chain of rays: the eye's ray has depth 1, and rays deeper than this are black.
     pub max_depth: u32,

@@ -4,6 +4,7 @@ mod looks;
 mod many;
 pub mod maps;
 mod objects;
+mod physical;
 
 use crate::Dice;
 use durer::math::{DVec3, Rgb};
@@ -37,23 +38,35 @@ const PIXELS: u32 = 8;
 /// A scene of a few objects with a picture of 8 × 8 pixels. Few do not pass the check.
 pub fn scene(dice: &mut Dice<'_>, temper: Temper) -> Scene {
     let mut maker = Maker { dice, temper };
-    let camera = maker.camera();
-    Scene {
-        camera,
-        picture: Picture { width: PIXELS, height: PIXELS, ..Picture::default() },
-        render: maker.settings(),
-        background: maker.background(),
-        ambient: maker.light_color(),
-        fog: maker.fog(),
-        lights: maker.some(3, Maker::light),
-        images: vec![maker.image()],
-        textures: (0..TEXTURES).map(|before| maker.texture(before)).collect(),
-        materials: (0..MATERIALS).map(|_| maker.material()).collect(),
-        objects: maker.some(5, |maker| maker.object(0)),
-    }
+    let mut scene = maker.classic_scene();
+    maker.make_physical(&mut scene);
+    scene
+}
+
+/// The same scene before anything physical was put onto it, for Whitted's algorithm.
+pub fn classic_scene(dice: &mut Dice<'_>, temper: Temper) -> Scene {
+    Maker { dice, temper }.classic_scene()
 }
 
 impl Maker<'_, '_> {
+    fn classic_scene(&mut self) -> Scene {
+        let maker = self;
+        let camera = maker.camera();
+        Scene {
+            camera,
+            picture: Picture { width: PIXELS, height: PIXELS, ..Picture::default() },
+            render: maker.settings(),
+            background: maker.background(),
+            ambient: maker.light_color(),
+            fog: maker.fog(),
+            lights: maker.some(3, Maker::light),
+            images: vec![maker.image()],
+            textures: (0..TEXTURES).map(|before| maker.texture(before)).collect(),
+            materials: (0..MATERIALS).map(|_| maker.material()).collect(),
+            objects: maker.some(5, |maker| maker.object(0)),
+        }
+    }
+
     fn some<T>(&mut self, most: usize, mut make: impl FnMut(&mut Self) -> T) -> Vec<T> {
         let count = 1 + self.dice.below(most);
         (0..count).map(|_| make(self)).collect()

@@ -78,14 +78,14 @@ struct Development {
     transfer: Option<String>,
 }
 
-fn exposure(text: &str) -> Result<f32, String> {
+pub(crate) fn exposure(text: &str) -> Result<f32, String> {
     match text.parse() {
         Ok(stops) if (-100.0..=100.0).contains(&stops) => Ok(stops),
         Ok(_) | Err(_) => Err("expected a number from -100 to 100".to_owned()),
     }
 }
 
-fn tone_mappings() -> PossibleValuesParser {
+pub(crate) fn tone_mappings() -> PossibleValuesParser {
     PossibleValuesParser::new(ToneMapping::ALL.map(ToneMapping::word))
 }
 

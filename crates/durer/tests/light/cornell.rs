@@ -36,6 +36,11 @@ fn every_pixel_agrees_with_the_reference() {
             let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (n * (n - 1.0));
             let expected = f64::from(expected.to_array()[channel]);
             (ours, theirs) = (ours + mean, theirs + expected);
+            // Beside the box there is nothing.
+            if expected == 0.0 {
+                assert_eq!(mean, 0.0);
+                continue;
+            }
             let t = (mean - expected) / variance.sqrt().max(1e-4 * expected);
             squares += t * t;
             worst = worst.max(t.abs());

@@ -127,6 +127,9 @@ fn unknown_material(node: &Node, text: &str, cx: &Decoder<'_>) -> Complaint {
     if let Some(near) = suggest::nearest(text, names.iter().copied()) {
         return complaint.help(format!("did you mean `{near}`?"));
     }
+    if Physical::WORDS.iter().any(|(word, _)| *word == text) {
+        return complaint.help(format!("for one of that kind, write `material: {{{text}: {{}}}}`"));
+    }
     let is_paint = colors::parse(text).is_some() || cx.texture_names.contains_key(text) || number_text(node).is_some();
     if is_paint {
         return complaint.help(format!("to paint it in that color, write `material: {{color: {text}}}`"));

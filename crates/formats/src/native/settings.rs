@@ -7,6 +7,7 @@ use super::record::{
 use super::tree::{Node, NodeKind};
 use super::value::{Value, number_text};
 use super::write::{FieldsOut, Out, Writer};
+use crate::diagnostics::Complaint;
 use durer_imaging::{ToneMapping, Transfer};
 use durer_math::Rgb;
 use durer_scene::{
@@ -45,7 +46,7 @@ record!(RenderSettings {
     noise: Option<f32> = None => "Where light is sampled at random: samples are taken until the error of each part of the picture is below this part of its brightness; 0.0001 to 1.";
     time: Option<f64> = None => "Begins no samples after this many seconds.";
     seed: u32 = 0 => "Where light is sampled at random: another number gives other noise.";
-    light_samples: u32 = 16 => "`whitted`: shadow rays to each light that has an area; 1 to 4096.";
+    light_samples: u32 = 16 => "`whitted`: shadow rays to each light that has an area, up to 4096; with 0, what glows lights nothing.";
     max_depth: u32 = RenderSettings::default().max_depth
         => "`whitted`: longest chain of rays: the eye's ray has depth 1, and rays deeper than this are black; 1 to 100.";
     min_weight: f32 = 0.001 => "`whitted`: rays that count less than this in the pixel are not traced; 0 traces all.";
@@ -222,6 +223,10 @@ impl Value for Background {
     fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
         match &node.kind {
             NodeKind::Mapping(_) if ["image", "rotation", "strength"].iter().any(|key| node.get(key).is_some()) => {
+                if node.get("image").is_none() {
+                    let complaint = Complaint::error(node.span, "`background` needs `image`");
+                    return cx.complain(complaint.help("for example `background: {image: sky.hdr, rotation: 90}`"));
+                }
                 super::record::decode_record("background", node, cx).map(Background::Image)
             }
             NodeKind::Mapping(_) => super::record::decode_record("background", node, cx)

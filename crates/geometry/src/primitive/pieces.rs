@@ -99,12 +99,13 @@ impl Primitive {
     }
 
     fn piece(&self, element: u32) -> Option<Piece> {
-        self.piece_in(&DAffine3::IDENTITY, element, Shows::OneSide)
+        self.piece_in(None, element, Shows::OneSide)
     }
 
     /// The piece of an element, placed by one more map.
-    fn piece_in(&self, outer: &DAffine3, element: u32, shows: Shows) -> Option<Piece> {
-        let map = *outer * DAffine3 { matrix3: self.world_from_shape, translation: self.origin };
+    fn piece_in(&self, outer: Option<&DAffine3>, element: u32, shows: Shows) -> Option<Piece> {
+        let map = DAffine3 { matrix3: self.world_from_shape, translation: self.origin };
+        let map = outer.map_or(map, |outer| *outer * map);
         Some(match &self.kind {
             Kind::Plane(_) => return None,
             Kind::Sphere(_) => Piece::ball(&map, shows),
@@ -128,7 +129,7 @@ impl Primitive {
                 let (shape, own) = solid.shape_of(element);
                 // What is taken away is seen from within.
                 let shows = if solid.is_flipped(element) { Shows::BothSides } else { shows };
-                shape.piece_in(&map, own, shows)?.with_parts_from(element - own)
+                shape.piece_in(Some(&map), own, shows)?.with_parts_from(element - own)
             }
         })
     }

@@ -1,11 +1,12 @@
 //! Aiming at a rectangle: uniform in the solid angle that it fills.
 //!
 //! Ureña, Fajardo and King, "An Area-Preserving Parametrization for Spherical Rectangles", EGSR 2013. Its angles are computed
-//! by `atan2` of what their sines and cosines are in terms of corners, which loses no digits near the rectangle's plane.
+//! by `atan2` of what their sines and cosines are in terms of corners, which loses no digits near the rectangle's plane; their
+//! sums by one `atan2` each, of what the angles are as complex numbers multiplied.
 
 use super::{Chosen, Target};
 use crate::Bounds;
-use durer_math::functions::{atan2, cos, sin};
+use durer_math::functions::{atan2, cos_sin_of_turns};
 use durer_math::{DVec2, DVec3};
 use std::f64::consts::PI;
 
@@ -34,9 +35,16 @@ pub(super) struct Seen {
 
 impl Seen {
     pub(super) fn new(x: [f64; 2], y: [f64; 2], height: f64) -> Seen {
-        let angle = |x: f64, y: f64, sign: f64| atan2(height * (x * x + y * y + height * height).sqrt(), sign * x * y);
-        let rest = 2.0 * PI - angle(x[0], y[1], 1.0) - angle(x[0], y[0], -1.0);
-        let solid_angle = angle(x[1], y[0], 1.0) + angle(x[1], y[1], -1.0) - rest;
+        // Sine and cosine of the angle at a corner, times the same.
+        let corner = |x: f64, y: f64| [height * (x * x + y * y + height * height).sqrt(), x * y];
+        let turned = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * d + b * c, b * d - a * c];
+        let other_way = |[sine, cosine]: [f64; 2]| [sine, -cosine];
+        // Two angles from 0 to π each, whose sum is from 0 to 2π; all four are 2π more than the solid angle.
+        let first = turned(corner(x[0], y[1]), other_way(corner(x[0], y[0])));
+        let second = turned(corner(x[1], y[0]), other_way(corner(x[1], y[1])));
+        let all = turned(scaled(first), scaled(second));
+        let rest = 2.0 * PI - positive(atan2(first[0], first[1]));
+        let solid_angle = positive(atan2(all[0], all[1]));
         Seen { x, y, height, rest, solid_angle }
     }
 
@@ -61,8 +69,8 @@ impl Seen {
         }
         // Of the two planes through the origin and the sides along x, the cosines to the rectangle's.
         let (low, high) = (-y0 / (h * h + y0 * y0).sqrt(), y1 / (h * h + y1 * y1).sqrt());
-        let turned = at.x * self.solid_angle + self.rest;
-        let f = (cos(turned) * low - high) / sin(turned);
+        let (cosine, sine) = cos_sin_of_turns((at.x * self.solid_angle + self.rest) * (0.5 / PI));
+        let f = (cosine * low - high) / sine;
         let c = (1.0 / (f * f + low * low).sqrt()).copysign(f).clamp(-1.0, 1.0);
         // In this plane through the y axis, from which the rest follows; a clamp undoes what was rounded.
         let x = (c * h / (1.0 - c * c).sqrt()).clamp(x0, x1);
@@ -89,6 +97,17 @@ impl Seen {
         let squared = point.length_squared() + self.height * self.height;
         if self.height > 0.0 { squared * squared.sqrt() / (self.height * self.area()) } else { 0.0 }
     }
+}
+
+/// An angle from 0 to 2π.
+fn positive(angle: f64) -> f64 {
+    if angle < 0.0 { angle + 2.0 * PI } else { angle }
+}
+
+/// A complex number of any size with one about as long as 1.
+fn scaled([a, b]: [f64; 2]) -> [f64; 2] {
+    let size = a.abs().max(b.abs());
+    if size > 0.0 { [a / size, b / size] } else { [a, b] }
 }
 
 impl Rectangle {

@@ -35,9 +35,9 @@ impl Item {
         let min = bounds.min.to_array().map(|x| (x as f32).next_down());
         let max = bounds.max.to_array().map(|x| (x as f32).next_up());
         let is_somewhere = min.iter().chain(&max).all(|x| x.abs() < 1e18);
-        // Any order of magnitude between which ratios can be formed.
-        let intensity = intensity.min(1e30) as f32;
-        (is_somewhere && intensity > 1e-30).then_some(Item { min, max, intensity, cone, id })
+        // Orders of magnitude between which ratios can be formed.
+        let is_bright = intensity > 1e-30;
+        (is_somewhere && is_bright).then(|| Item { min, max, intensity: intensity.min(1e30) as f32, cone, id })
     }
 }
 
@@ -126,9 +126,9 @@ impl LightTree {
         self.nodes.first().map_or(0.0, |root| root.importance(receiver))
     }
 
-    /// Chooses an emitter by a number from 0 to 1: gives which, with what probability, and a number from 0 to 1 that the choice
-    /// leaves. `None` if none gives light to the receiver.
-    pub(crate) fn sample(&self, receiver: &Receiver, choice: f64) -> Option<(u32, f64, f64)> {
+    /// Chooses an emitter by a number from 0 to 1: gives which, and with what probability. `None` if none gives light to the
+    /// receiver.
+    pub(crate) fn sample(&self, receiver: &Receiver, choice: f64) -> Option<(u32, f64)> {
         let (mut at, mut probability, mut choice) = (0, 1.0, choice);
         let mut node = self.nodes.first()?;
         if node.is_leaf && node.importance(receiver) <= 0.0 {
@@ -146,7 +146,7 @@ impl LightTree {
             choice = choice.min(1.0_f64.next_down());
             node = &self.nodes[at];
         }
-        Some((node.link, probability, choice))
+        Some((node.link, probability))
     }
 
     /// The probability with which [`LightTree::sample`] chooses an emitter.

@@ -17,9 +17,10 @@ use crate::media::Media;
 use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Scattering, Source, SurfaceSeen, Weighing};
 use crate::sampler::{Purpose, Sampler};
 use crate::shading::Shading;
+use crate::surfaces::Indices;
 use crate::visibility::{MOST_SURFACES, visibility};
 use durer_geometry::Ray;
-use durer_math::Rgb;
+use durer_math::{DVec3, Rgb};
 
 /// The path tracer.
 pub(crate) struct PathTracer {
@@ -44,7 +45,8 @@ impl Integrator for PathTracer {
         observer: &mut O,
     ) -> Rgb {
         let media = if scene.media_at_eye.is_empty() { Media::default() } else { Media::around(scene, ray) };
-        let state = State { kind: RayKind::Eye, ray: *ray, depth: 1, met: 0, weight: Rgb::WHITE, aimed: None };
+        let state =
+            State { kind: RayKind::Eye, ray: *ray, depth: 1, met: 0, weight: Rgb::WHITE, scale: 1.0, aimed: None };
         let mut path = Path { tracer: self, scene, sampler, media, state, sum: Rgb::BLACK, observer };
         path.follow(known);
         path.sum
@@ -73,6 +75,8 @@ struct State {
     met: u32,
     /// What light at its start counts in the sample.
     weight: Rgb,
+    /// The part of the weight that is due to radiance being another in another medium, and says nothing of how much light is left.
+    scale: f32,
     /// How it was found, if light could have been aimed at instead.
     aimed: Option<Aimed>,
 }
@@ -138,28 +142,34 @@ impl<O: Observer> Path<'_, O> {
             let part = self.part_of_found(density);
             self.add(Source::Emission, emission * part);
         }
-        if self.state.depth >= self.tracer.max_depth {
-            self.observer.not_traced(RayKind::Reflected, self.state.weight, NotTraced::TooDeep);
-            return false;
-        }
         self.scatter(&shading)
     }
 
     /// Light that the surface gives back, and the next segment.
     fn scatter(&mut self, shading: &Shading<'_>) -> bool {
-        let frame = Frame::around(shading.normal());
-        let out = frame.to_local(-shading.direction);
-        let bsdf = Bsdf::diffuse(shading.color * shading.material.diffuse);
-        let receiver = Receiver { point: shading.origin_back(), normal: shading.normal(), passes: false };
+        let Some(indices) = self.indices(shading) else {
+            // Shadow rays do not know that there is nothing.
+            self.state.aimed = None;
+            self.pass(shading, true);
+            return true;
+        };
+        let (frame, bsdf) = shading.scattering(self.scene, indices);
+        let out = shading.out_in(&frame);
+        if self.state.depth >= self.tracer.max_depth {
+            return self.end(shading, bsdf.straight(out));
+        }
+        let receiver =
+            Receiver { point: shading.origin_back(), normal: shading.normal(), passes: bsdf.spreads_through() };
         let step = self.step();
         if !bsdf.is_specular() {
-            self.aim(shading, &frame, &bsdf, &receiver);
+            self.aim(shading, (&frame, out), &bsdf, &receiver);
         }
         let lobe = self.sampler.one(step, Purpose::Lobe);
         let Some(scattered) = bsdf.sample(out, lobe, self.sampler.two(step, Purpose::Direction)) else {
             return false;
         };
         self.state.weight *= scattered.weight;
+        self.state.scale *= scattered.scale;
         let passes = scattered.direction.z < 0.0;
         let direction = frame.to_world(scattered.direction).normalize();
         let pdf = if let How::Spread { pdf } = scattered.how { Some(pdf) } else { None };
@@ -193,26 +203,54 @@ impl<O: Observer> Path<'_, O> {
         true
     }
 
+    /// Where the longest path ends, its last segment goes on through what lets light pass straight, as shadow rays do.
+    fn end(&mut self, shading: &Shading<'_>, straight: Rgb) -> bool {
+        if straight.is_black() {
+            self.observer.not_traced(RayKind::Reflected, self.state.weight, NotTraced::TooDeep);
+            return false;
+        }
+        self.state.weight *= straight;
+        self.pass(shading, shading.bounds_medium);
+        true
+    }
+
+    /// The indices of refraction before and behind a surface; `None` if there is no surface, since the medium that rules here
+    /// is the same on both sides.
+    fn indices(&mut self, shading: &Shading<'_>) -> Option<Indices> {
+        let before = self.media.ior(self.scene);
+        if !shading.bounds_medium {
+            return Some(Indices { before, behind: None });
+        }
+        let ruling = self.media.ruling(self.scene);
+        let undo = self.media.cross(shading.primitive, shading.from_outside);
+        let (behind, next) = (self.media.ior(self.scene), self.media.ruling(self.scene));
+        self.media.undo(undo);
+        let is_none = ruling.is_some() && ruling == next && shading.is_only_a_boundary(self.scene);
+        (!is_none).then_some(Indices { before, behind: Some(behind) })
+    }
+
     /// Looks for light by aiming at an emitter.
-    fn aim(&mut self, shading: &Shading<'_>, frame: &Frame, bsdf: &Bsdf, receiver: &Receiver) {
+    fn aim(&mut self, shading: &Shading<'_>, (frame, out): (&Frame, DVec3), bsdf: &Bsdf, receiver: &Receiver) {
         let (scene, step) = (self.scene, self.step());
         let choice = self.sampler.one(step, Purpose::Light);
         let at = self.sampler.two(step, Purpose::LightPoint);
         let Some(light) = scene.emitters.sample(scene, receiver, choice, at) else { return };
         let toward = frame.to_local(light.direction);
-        let (scattered, pdf) = bsdf.evaluate(frame.to_local(-shading.direction), toward);
+        let (scattered, pdf) = bsdf.evaluate(out, toward);
         let mut visible = Rgb::BLACK;
         let passes = toward.z < 0.0;
         if !scattered.is_black() && shading.is_on_far_side(light.direction) == passes {
             self.observer.shadow_ray();
             let ray = if passes { shading.ray_on(light.direction) } else { shading.ray_back(light.direction) };
+            // From the far side the way is not quite as long.
+            let reach = light.distance - (ray.origin - receiver.point).dot(light.direction);
             let vantage = light.lamp.and_then(|index| scene.light_vantages[index].as_ref());
             visible = if passes && shading.bounds_medium {
                 let mut media = self.media.clone();
                 let _ = media.cross(shading.primitive, shading.from_outside);
-                visibility(scene, &media, &ray, light.distance, vantage)
+                visibility(scene, &media, &ray, reach, vantage)
             } else {
-                visibility(scene, &self.media, &ray, light.distance, vantage)
+                visibility(scene, &self.media, &ray, reach, vantage)
             };
         }
         if let Some(index) = light.lamp {
@@ -248,7 +286,7 @@ impl<O: Observer> Path<'_, O> {
 
     /// The chance of a path of this weight to go on.
     fn survival(&self) -> f32 {
-        let weight = self.state.weight.max_component();
+        let weight = self.state.weight.max_component() / self.state.scale;
         match self.state.depth {
             depth if depth < FIRST_ROULETTE && weight > 0.0 => 1.0,
             _ => weight.min(MOST_LIKELY),
@@ -313,8 +351,8 @@ mod tests {
     use super::*;
     use crate::compile::compile;
     use durer_scene::{
-        Background, Emission, Light, LightKind, Material, MaterialKind, Matte, Object, ObjectKind, Paint, Scene, Shape,
-        Strength,
+        Background, Camera, Classic, Emission, Glass, Light, LightKind, Material, MaterialKind, Matte, Object,
+        ObjectKind, Paint, RenderSettings, Scene, Shape, Strength,
     };
 
     fn matte(color: Rgb) -> Material {
@@ -322,7 +360,12 @@ mod tests {
     }
 
     fn mean(scene: &CompiledScene, samples: u32) -> Rgb {
-        let tracer = PathTracer { max_depth: 1000, clamp: None };
+        mean_to(1000, scene, samples)
+    }
+
+    /// With no more segments than this.
+    fn mean_to(max_depth: u32, scene: &CompiledScene, samples: u32) -> Rgb {
+        let tracer = PathTracer { max_depth, clamp: None };
         let ray = scene.camera.ray(durer_math::DVec2::new(320.0, 240.0));
         let estimates = (0..samples).map(|index| {
             let sampler = Sampler::new(0, (0, 0), index);
@@ -393,5 +436,122 @@ mod tests {
         let found = mean(&compile(&scene.check().unwrap()), 4);
         // Default color 0.8, of which 0.8 is given back.
         assert!((found - Rgb::gray(0.32)).map(f32::abs).max_component() < 1e-6, "{found:?}");
+    }
+
+    /// What is seen of a ball of this material straight ahead, under a sky.
+    fn ball_under(sky: Background, material: Material) -> CompiledScene {
+        let ball = Object {
+            material: Some(durer_scene::MaterialId(0)),
+            ..Object::new(ObjectKind::Shape(Shape::Sphere { center: DVec3::new(0.3, 0.2, -5.0), radius: 1.0 }))
+        };
+        let render = RenderSettings {
+            integrator: durer_scene::Integrator::Path { max_depth: 1000, clamp: None },
+            ..Default::default()
+        };
+        let scene = Scene {
+            materials: vec![material],
+            objects: vec![ball],
+            background: sky,
+            camera: Some(Default::default()),
+            lights: Vec::new(),
+            render,
+            ..Scene::default()
+        };
+        compile(&scene.check().unwrap())
+    }
+
+    /// The furnace test for bodies: glass takes nothing away, however rough it is and whatever it is filled with.
+    #[test]
+    fn clear_bodies_vanish_in_a_white_sky() {
+        for roughness in [0.0, 0.3, 0.8] {
+            for (ior, thin) in [(1.5, false), (0.8, false), (2.4, false), (1.5, true)] {
+                let glass = Glass { ior, thin, roughness: Paint::Color(Rgb::gray(roughness)), ..Glass::default() };
+                let scene = ball_under(Background::Color(Rgb::WHITE), Material::of(MaterialKind::Glass(glass)));
+                let found = mean(&scene, 16_000);
+                let off = (found - Rgb::WHITE).map(f32::abs).max_component();
+                assert!(off < 0.04, "roughness {roughness}, ior {ior}: {found:?}");
+            }
+        }
+    }
+
+    /// Two boundaries of a pane of glass let 1 - 2R/(1 + R) through: with R = 0.04, 0.92308 of a lamp straight behind it, and
+    /// as much of the sky.
+    #[test]
+    fn lamps_and_sky_shine_through_panes_alike() {
+        let pane = Glass { thin: true, ..Glass::default() };
+        let clear = Classic { transparency: Rgb::WHITE, ior: Some(1.5), fresnel: true, ..Classic::default() };
+        for kind in [MaterialKind::Glass(pane), MaterialKind::Classic(clear)] {
+            let rectangle = |z: f64| Shape::Rectangle {
+                corner: DVec3::new(-9.0, -9.0, z),
+                edges: [DVec3::X * 18.0, DVec3::Y * 18.0],
+            };
+            let with = |shape: Shape, id: u32| Object {
+                material: Some(durer_scene::MaterialId(id)),
+                ..Object::new(ObjectKind::Shape(shape))
+            };
+            let kind_of_light = LightKind::Directional { direction: DVec3::Z };
+            let lamp = Light { name: None, color: Rgb::WHITE, strength: Strength::Classic(1.0), kind: kind_of_light };
+            let scene = Scene {
+                materials: vec![matte(Rgb::WHITE), Material::of(kind)],
+                // The eye is between a wall and the pane, and the lamp behind the pane.
+                objects: vec![with(rectangle(-5.0), 0), with(rectangle(-7.0), 1)],
+                background: Background::Color(Rgb::BLACK),
+                camera: Some(Camera {
+                    position: DVec3::new(0.0, 0.0, -6.0),
+                    look_at: DVec3::new(0.0, 0.0, -5.0),
+                    ..Default::default()
+                }),
+                lights: vec![lamp],
+                render: RenderSettings {
+                    integrator: durer_scene::Integrator::Path { max_depth: 2, clamp: None },
+                    ..Default::default()
+                },
+                ..Scene::default()
+            };
+            let scene = compile(&scene.check().unwrap());
+            let found = mean_to(2, &scene, 16);
+            assert!((found.g - 0.923_08).abs() < 1e-4, "{found:?}");
+        }
+    }
+
+    /// Wine that is poured into a glass and goes a little into it bends light as if it touched it: the glass has the higher
+    /// priority, and hides what of the wine's surface is in it. A wine as dense as air leaves only the glass's own boundaries.
+    #[test]
+    fn priorities_hide_what_is_inside() {
+        let sphere = |radius: f64, id: u32| Object {
+            material: Some(durer_scene::MaterialId(id)),
+            ..Object::new(ObjectKind::Shape(Shape::Sphere { center: DVec3::NEG_Z * 5.0, radius }))
+        };
+        let glass =
+            |ior: f64, priority: i32| Material::of(MaterialKind::Glass(Glass { ior, priority, ..Glass::default() }));
+        let seen = |objects: Vec<Object>, inner: i32| {
+            let scene = Scene {
+                materials: vec![glass(1.5, 1), glass(2.0, inner)],
+                objects,
+                background: Background::Color(Rgb::BLACK),
+                camera: Some(Default::default()),
+                lights: Vec::new(),
+                render: RenderSettings {
+                    integrator: durer_scene::Integrator::Path { max_depth: 100, clamp: None },
+                    ..Default::default()
+                },
+                ..Scene::default()
+            };
+            let scene = compile(&scene.check().unwrap());
+            let ray = scene.camera.ray(durer_math::DVec2::new(330.0, 250.0));
+            let tracer = PathTracer { max_depth: 100, clamp: None };
+            let mut counts = crate::observer::RayCounts::default();
+            for sample in 0..4000 {
+                tracer.radiance(&scene, &ray, Known::Nothing, &Sampler::new(0, (0, 0), sample), &mut counts);
+            }
+            counts.reflected
+        };
+        let alone = seen(vec![sphere(1.0, 0)], 0);
+        assert!(alone > 0);
+        // The same random numbers are met later on the way, so there are only about as many.
+        let hidden = seen(vec![sphere(1.0, 0), sphere(0.5, 1)], 0);
+        let real = seen(vec![sphere(1.0, 0), sphere(0.5, 1)], 2);
+        assert!(real > hidden + hidden / 4, "{alone} alone, {hidden} with one hidden inside, {real} with one inside");
+        assert!(hidden.abs_diff(alone) < alone / 4, "{alone} alone, {hidden} with one hidden inside");
     }
 }

@@ -4,6 +4,8 @@
 //! sum: every term is added with the product of all weights on its way from the eye, so the terms can be listed and
 //! their sum, in the order of the list, is the pixel to the last bit.
 
+mod soft;
+
 use super::Integrator;
 use crate::compile::CompiledScene;
 use crate::holes::{Known, meet};
@@ -25,11 +27,11 @@ impl Integrator for Whitted {
         scene: &CompiledScene,
         ray: &Ray,
         known: Known<'_>,
-        _: &Sampler,
+        sampler: &Sampler,
         observer: &mut O,
     ) -> Rgb {
         let media = if scene.media_at_eye.is_empty() { Media::default() } else { Media::around(scene, ray) };
-        let mut path = Path { scene, media, sum: Rgb::BLACK, observer };
+        let mut path = Path { scene, sampler, lit: 0, media, sum: Rgb::BLACK, observer };
         path.trace(RayKind::Eye, 1, ray, Rgb::WHITE, known);
         path.sum
     }
@@ -38,6 +40,9 @@ impl Integrator for Whitted {
 /// All rays from one ray of the eye.
 struct Path<'a, O> {
     scene: &'a CompiledScene,
+    sampler: &'a Sampler,
+    /// How often light was looked for on something that has an area.
+    lit: u32,
     /// Around the origin of the ray being traced.
     media: Media,
     sum: Rgb,
@@ -108,6 +113,10 @@ impl<O: Observer> Path<'_, O> {
         // Lit points lie off the surface like the origins of all rays, so that shadow rays end exactly in the light.
         let point = shading.origin_back();
         for (index, light) in self.scene.lights.iter().enumerate() {
+            if light.radius() > 0.0 && self.scene.settings.light_samples > 0 {
+                self.shade_by_ball(shading, weight, index);
+                continue;
+            }
             let Some(arriving) = light.arriving(point) else {
                 let (cosine, visibility) = (0.0, Rgb::BLACK);
                 self.observer.light(&LightSeen { index, distance: None, cosine, visibility });
@@ -137,6 +146,9 @@ impl<O: Observer> Path<'_, O> {
                 let strength = highlight(shading, arriving.direction);
                 self.add(Source::Specular(index), weight * material.specular * light * strength);
             }
+        }
+        if self.scene.emitters.has_shapes() {
+            self.shade_by_shapes(shading, weight);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::compile::compile;
-use crate::film::SampleRange;
+use crate::film::{MergeError, SampleRange};
 use crate::schedule::{RenderOptions, render, render_on};
 use durer_math::{DVec3, Rgb};
 use durer_scene::{
@@ -139,4 +139,55 @@ fn samples_that_nobody_takes_are_refused() {
     let samples = Some(SampleRange { start: 0, end: 5 });
     let whitted = scene(8, 8, |settings| settings.integrator = Kind::Whitted);
     assert!(render(&whitted, &RenderOptions { samples, ..options(1) }, &()).is_err());
+}
+
+/// Any cut of the picture and of its samples, in any order: the film of one run.
+#[test]
+fn parts_make_the_film_of_one_run() {
+    let scene = scene(40, 30, |settings| settings.samples = 10);
+    let part = |x, y, width, height, start, end| {
+        let region = Some(Region { x, y, width, height });
+        let samples = Some(SampleRange { start, end });
+        render(&scene, &RenderOptions { threads: Some(1), region, samples, direct: true }, &()).unwrap()
+    };
+    let whole = render(&scene, &RenderOptions { direct: true, ..options(2) }, &()).unwrap();
+    let parts = [
+        part(0, 0, 40, 30, 7, 10),
+        part(0, 0, 13, 30, 0, 7),
+        part(13, 0, 27, 11, 3, 7),
+        part(13, 11, 27, 19, 0, 7),
+        part(13, 0, 27, 11, 0, 3),
+    ];
+    assert_eq!(Film::merge(&parts).as_ref(), Ok(&whole));
+    let some = Film::merge(&parts[..3]).unwrap();
+    let shuffled = Film::merge(&[parts[2].clone(), parts[0].clone(), parts[1].clone()]).unwrap();
+    assert_eq!(some, shuffled);
+    let missing: u64 = some.gaps().iter().map(|part| part.region.pixels() * u64::from(part.samples.count())).sum();
+    assert_eq!(missing + some.done(), whole.done());
+    assert!(whole.gaps().is_empty());
+    assert_eq!(Film::merge(&[some, parts[3].clone(), parts[4].clone()]).as_ref(), Ok(&whole));
+}
+
+#[test]
+fn films_that_do_not_fit_are_not_merged() {
+    let scene = scene(40, 30, |settings| settings.samples = 3);
+    let film = render(&scene, &options(1), &()).unwrap();
+    let overlap = Film::merge(&[film.clone(), film.clone()]);
+    assert!(matches!(overlap, Err(MergeError::Overlap { first: 0, second: 1, .. })));
+    let unfinished = render(&scene, &options(1), &After(AtomicU64::new(3))).unwrap();
+    assert_eq!(Film::merge(&[unfinished]), Err(MergeError::Unfinished(0)));
+    assert_eq!(Film::merge(&[]), Err(MergeError::Nothing));
+    let samples = Some(SampleRange { start: 3, end: 5 });
+    let with_direct = render(&scene, &RenderOptions { samples, direct: true, ..options(1) }, &()).unwrap();
+    assert_eq!(Film::merge(&[film, with_direct]), Err(MergeError::OtherKind(1)));
+}
+
+/// Under an even sky, a white ball alone sends on direct light only; on a floor it is less than all.
+#[test]
+fn direct_light_is_a_part_of_all_light() {
+    let scene = scene(40, 30, |settings| settings.samples = 16);
+    let film = render(&scene, &RenderOptions { direct: true, ..options(1) }, &()).unwrap();
+    let sums = film.sums().unwrap();
+    assert_eq!(film.pixels(), render(&scene, &options(1), &()).unwrap().pixels());
+    assert!((0..sums.taken.len()).all(|pixel| sums.direct_mean(pixel) == Some(sums.mean(pixel))));
 }

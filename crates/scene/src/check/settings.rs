@@ -194,7 +194,7 @@ fn sampling(c: &mut Checker<'_>, settings: RenderSettings) {
     if let Some(time) = settings.time {
         c.within("time", time, 0.001, 1e7);
     }
-    c.within("light_samples", settings.light_samples.into(), 1.0, 4096.0);
+    c.within("light_samples", settings.light_samples.into(), 0.0, 4096.0);
 }
 
 fn pov(c: &mut Checker<'_>, threshold: f32, depth: u32) {

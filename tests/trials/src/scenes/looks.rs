@@ -15,7 +15,7 @@ impl Maker<'_, '_> {
     }
 
     /// A color, or one of the first `of` textures.
-    fn paint(&mut self, of: usize) -> Paint {
+    pub(super) fn paint(&mut self, of: usize) -> Paint {
         match of > 0 && self.dice.one_in(2) {
             true => Paint::Texture(TextureId(self.dice.below(of) as u32)),
             false => Paint::Color(self.color()),
@@ -60,7 +60,7 @@ impl Maker<'_, '_> {
         }
     }
 
-    fn ior(&mut self) -> f64 {
+    pub(super) fn ior(&mut self) -> f64 {
         match self.is_odd() {
             true => self.dice.one_of(&[0.1, 1.0, 1.000_000_1, 10.0]),
             false => self.dice.within(1.1, 2.0),

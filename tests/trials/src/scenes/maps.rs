@@ -1,8 +1,9 @@
 //! Scenes that must look the same: scaled, turned, renamed.
 
-use durer::math::{DAffine3, DMat3, DVec3, rotation};
+use durer::math::{DAffine3, DMat3, DVec3, Rgb, rotation};
 use durer::scene::{
-    Background, Camera, Falloff, Fog, Light, LightKind, Object, ObjectKind, Projection, Scene, Transform, TransformStep,
+    Background, Camera, Falloff, Focus, Fog, Lens, Light, LightKind, Object, ObjectKind, Projection, Scene, Transform,
+    TransformStep,
 };
 
 /// The scene with every length multiplied: places, sizes, distances of fog and media; and lamps that weaken with the square
@@ -10,8 +11,11 @@ use durer::scene::{
 pub fn scaled(mut scene: Scene, factor: f64) -> Scene {
     let map = DAffine3::from_scale(DVec3::splat(factor));
     scene.objects = vec![around(scene.objects, TransformStep::Scale(DVec3::splat(factor)))];
-    scene.camera =
-        scene.camera.map(|camera| Camera { projection: bigger(camera.projection, factor), ..seen(&camera, &map) });
+    scene.camera = scene.camera.map(|camera| Camera {
+        projection: bigger(camera.projection, factor),
+        lens: camera.lens.map(|lens| larger(lens, factor)),
+        ..seen(&camera, &map)
+    });
     scene.lights = scene.lights.into_iter().map(|light| brighter(lit(light, &map), factor)).collect();
     scene.fog = scene.fog.map(|fog| match fog {
         Fog::Exponential { color, distance } => Fog::Exponential { color, distance: distance * factor },
@@ -34,9 +38,10 @@ pub fn turned(mut scene: Scene, axis: DVec3, degrees: f64) -> Scene {
 
 /// With a background that looks the same in all directions.
 pub fn with_plain_background(mut scene: Scene) -> Scene {
-    if let Background::Gradient { bottom, .. } = scene.background {
-        scene.background = Background::Color(bottom);
-    }
+    scene.background = Background::Color(match scene.background {
+        Background::Color(color) | Background::Gradient { bottom: color, .. } => color,
+        Background::Image(map) => Rgb::gray(map.strength.min(1.0)),
+    });
     scene
 }
 
@@ -101,13 +106,25 @@ fn bigger(projection: Projection, factor: f64) -> Projection {
     }
 }
 
+fn larger(lens: Lens, factor: f64) -> Lens {
+    let focus = match lens.focus {
+        Focus::LookAt => Focus::LookAt,
+        Focus::Distance(distance) => Focus::Distance(distance * factor),
+        Focus::Target(point) => Focus::Target(point * factor),
+    };
+    Lens { radius: lens.radius * factor, focus, ..lens }
+}
+
 fn seen(camera: &Camera, map: &DAffine3) -> Camera {
     Camera {
         position: map.transform_point3(camera.position),
         look_at: map.transform_point3(camera.look_at),
         up: direction(&map.matrix3, camera.up),
         projection: camera.projection,
-        lens: camera.lens,
+        lens: camera.lens.map(|lens| match lens.focus {
+            Focus::Target(point) => Lens { focus: Focus::Target(map.transform_point3(point)), ..lens },
+            Focus::LookAt | Focus::Distance(_) => lens,
+        }),
     }
 }
 
@@ -144,5 +161,9 @@ fn brighter(light: Light, factor: f64) -> Light {
         LightKind::Directional { .. } => false,
     };
     let more = if weakens { (factor * factor) as f32 } else { 1.0 };
+    let mut light = light;
+    if let LightKind::Point { radius, .. } | LightKind::Spot { radius, .. } = &mut light.kind {
+        *radius *= factor;
+    }
     Light { strength: light.strength.with_amount(light.strength.amount() * more), ..light }
 }

@@ -12,8 +12,8 @@ use crate::progress::{Bar, Phase, Reached, Show};
 use crate::{output, provenance, target};
 use durer::imaging::{EncodeOptions, Image, Layers};
 use durer::{
-    Beside, CheckedScene, Checkpoint, Film, FilmLayer, Origin, PictureFile, Progress, Region, RenderError,
-    RenderOptions, SceneHash, Sources, film_layers, read_checkpoint, temporary_beside,
+    CheckedScene, Checkpoint, Film, FilmLayer, Origin, PictureFile, Progress, Region, RenderError, RenderOptions,
+    SceneHash, SeenFirst, Sources, WriteError, film_layers, read_checkpoint, seen_first, temporary_beside,
 };
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -32,13 +32,28 @@ pub(crate) struct Job<'a> {
 /// What there is besides the film when all rays are traced.
 struct Outcome<'a> {
     file: PictureFile,
-    options: EncodeOptions,
-    /// `None` for the picture alone.
-    layers: Option<Layers>,
-    /// How much of each pixel is there, if not all.
-    alpha: Option<&'a [f32]>,
+    what: What<'a>,
     saver: Option<&'a Saver<'a>>,
     show: Show,
+}
+
+/// What tracing gives.
+struct Traced {
+    film: Film,
+    /// What is seen first, if that is wanted.
+    seen: Option<SeenFirst>,
+    /// How much of each pixel is there, if that is wanted.
+    alpha: Option<Vec<f32>>,
+    /// For building and for tracing.
+    seconds: [f64; 2],
+}
+
+/// What is written.
+enum What<'a> {
+    /// A picture, alone or with layers; and how much of each pixel is there, if not all.
+    Picture(EncodeOptions, Option<Layers>, Option<Vec<f32>>),
+    /// The film itself, as checkpoints are.
+    Film(&'a Saver<'a>),
 }
 
 impl Job<'_> {
@@ -50,14 +65,27 @@ impl Job<'_> {
         if arguments.saving.checkpoint.as_ref().is_some_and(|checkpoint| same_place(checkpoint, &path)) {
             return Err(Failure::usage("--checkpoint: the checkpoint cannot be the same file as the picture"));
         }
-        let format = target::format_of(&path)?;
-        let mut options = arguments.file.encode_options(format)?;
+        let format = if target::is_film(&path) { None } else { Some(target::format_of(&path)?) };
+        let mut options = match format {
+            Some(format) => arguments.file.encode_options(format)?,
+            None if arguments.layers.alpha => return Err(Failure::usage("--alpha: films have none; pictures have")),
+            None => arguments.file.of_no_picture().map(|()| EncodeOptions::default())?,
+        };
         let (loaded, load) = timed(|| arguments.scene.load_with_sources(show));
         let (scene, sources) = loaded?;
         let fingerprint = durer::scene_fingerprint(scene.scene(), &sources);
         let scene = arguments.overrides.apply(scene)?;
         options.metadata = provenance::of_render(fingerprint, scene.scene(), arguments.crop);
-        let layers = arguments.layers.of_file(format, &scene.scene().render.integrator)?;
+        let layers = match format {
+            Some(format) => arguments.layers.of_file(format, &scene.scene().render.integrator)?,
+            None => None,
+        };
+        if !scene.scene().render.integrator.takes_samples() && (format.is_none() || arguments.sample_range.is_some()) {
+            let integrator = scene.scene().render.integrator.word();
+            return Err(Failure::usage(format!(
+                "`{integrator}` takes no samples, of which there could be parts or a film; `path` does"
+            )));
+        }
         let picture = scene.scene().picture;
         (options.transfer, options.exposure, options.tone_mapping) =
             (picture.transfer, picture.exposure, picture.tone_mapping);
@@ -73,7 +101,10 @@ impl Job<'_> {
         interrupt.watch();
         let mut file = PictureFile::create(&path)?;
         interrupt.removes(file.temporary());
-        file.reserve(most_bytes(&options, (layers.as_deref(), arguments.layers.alpha), (region.width, region.height)))?;
+        file.reserve(match format {
+            Some(_) => most_bytes(&options, (layers.as_deref(), arguments.layers.alpha), (region.width, region.height)),
+            None => checkpoint_bytes_a_pixel(&scene) * region.pixels(),
+        })?;
         if let Some(saver) = &saver {
             interrupt.removes(&temporary_beside(saver.path()));
             if is_new && saving_from_the_start(arguments) {
@@ -83,13 +114,18 @@ impl Job<'_> {
         }
         let rays_before = film.as_ref().map_or(0, |film| film.rays().total());
         let wanted = layers.as_deref().unwrap_or_default();
-        let (film, beside, [build, render]) =
+        let Traced { film, seen, alpha, seconds: [build, render] } =
             self.trace(&scene, (film, region, wanted), &interrupt, saver.as_ref(), show)?;
         let report = Report::new(arguments.scene.path.clone(), path, format, &film).after(rays_before);
         let report = report.with_seconds(Seconds { load, build, render, write: 0.0 }).stopped_by(interrupt.reason());
-        let layers = layers.map(|layers| film_layers(&film, &beside, &layers, options.exr_samples));
-        let alpha = beside.alpha();
-        self.finish(&film, Outcome { file, options, layers, alpha, saver: saver.as_ref(), show }, report)
+        let layers =
+            layers.map(|layers| film_layers((&film, alpha.as_deref()), seen.as_ref(), &layers, options.exr_samples));
+        let what = match (format, &saver) {
+            (Some(_), _) => What::Picture(options, layers, alpha),
+            (None, Some(saver)) => What::Film(saver),
+            (None, None) => return Err(Failure::usage("films need names of files that are UTF-8")),
+        };
+        self.finish(&film, Outcome { file, what, saver: saver.as_ref(), show }, report)
     }
 
     /// The part that is rendered, if it lies within the picture.
@@ -147,7 +183,7 @@ impl Job<'_> {
         }
     }
 
-    /// The film, what there is to know beside it for the layers that are wanted, and the seconds for building and for tracing.
+    /// The film, what is seen first if layers want it, and the seconds for building and for tracing.
     fn trace(
         &self,
         scene: &CheckedScene,
@@ -155,7 +191,7 @@ impl Job<'_> {
         interrupt: &Interrupt,
         saver: Option<&Saver<'_>>,
         show: Show,
-    ) -> Result<(Film, Beside, [f64; 2]), Failure> {
+    ) -> Result<Traced, Failure> {
         durer::with_threads(self.manner.threads.map(usize::from), || {
             let simd = self.arguments.simd.unwrap_or_default();
             let (compiled, build) = timed(|| self.arguments.scene.compile_for(scene, simd, show));
@@ -166,7 +202,12 @@ impl Job<'_> {
             let already = film.as_ref().map_or(0, Film::done);
             let bar = Bar::new(interrupt.stop_flag(), already, show);
             let watch = Watch { bar, saver, total: AtomicU64::new(region.pixels()) };
-            let options = RenderOptions { threads: None, region: Some(region), samples: self.arguments.sample_range };
+            let options = RenderOptions {
+                threads: None,
+                region: Some(region),
+                samples: self.arguments.sample_range,
+                direct: layers.iter().any(|layer| layer.is_of_paths()),
+            };
             let (film, render) = timed(|| match film {
                 Some(film) => durer::render_on(&compiled, film, &options, &watch),
                 None => durer::render(&compiled, &options, &watch),
@@ -176,22 +217,25 @@ impl Job<'_> {
                 saver.settle();
             }
             let film = film?;
-            let stop = Stop(interrupt.stop_flag());
-            let mut beside = Beside::find(&compiled, &film, layers, None, &stop)?;
-            if self.arguments.layers.alpha {
-                // Quick, and without it a part of a picture could not be seen.
-                let alpha = durer::coverage(compiled, &film, &options, &())?;
-                let why = "--alpha: it cannot be told which samples the film is of";
-                beside = beside.with_alpha(alpha.ok_or_else(|| Failure::usage(why))?);
+            let wants_seen = layers.iter().any(|layer| layer.is_seen_first());
+            let options = RenderOptions { region: Some(film.region()), ..RenderOptions::default() };
+            let find_seen = || seen_first(&compiled, &options, &Stop(interrupt.stop_flag()));
+            let seen = wants_seen.then(find_seen).transpose()?;
+            let alpha = match self.arguments.layers.alpha {
+                // Quick, and without it what there is of a picture could not be seen: so nothing stops it.
+                true => durer::coverage(compiled, &film, &options, &())?,
+                false => None,
+            };
+            if self.arguments.layers.alpha && alpha.is_none() {
+                return Err(Failure::usage("--alpha: it cannot be told which samples the film is of"));
             }
-            Ok((film, beside, [build, render]))
+            Ok(Traced { film, seen, alpha, seconds: [build, render] })
         })?
     }
 
     /// Writes what there is, and says so.
     fn finish(&self, film: &Film, outcome: Outcome<'_>, mut report: Report) -> Result<Exit, Failure> {
-        let Outcome { file, mut options, layers, alpha, saver, show } = outcome;
-        options.metadata.extend(film.sums().map(provenance::of_samples));
+        let Outcome { file, what, saver, show } = outcome;
         let (finished, total) = (film.done(), (film.done() as f64 / share_done(film).max(1e-9)).round() as u64);
         let reached = |remaining| Some(Reached { finished, total, remaining });
         let (complete, interrupted) = (reached(Some(0.0)), reached(None));
@@ -204,17 +248,9 @@ impl Job<'_> {
             true => file,
             false => file.with_name(&report.name_of_part()),
         };
-        let Region { width, height, .. } = film.region();
-        let image = Image { width, height, pixels: film.pixels().to_vec() };
         let (bytes, write) = timed(|| {
             let _phase = Phase::begin("writing", &self.arguments.output_path().to_string_lossy(), show);
-            match layers {
-                Some(layers) => file.write_layers(layers, &options),
-                None => match alpha {
-                    Some(alpha) => file.write_with_alpha(&image, alpha, &options),
-                    None => file.write(&image, &options),
-                },
-            }
+            write(file, film, what)
         });
         let kept = match (saver, bytes.is_ok() && report.is_complete()) {
             (Some(saver), false) => self.keep(saver, film, bytes.is_err()),
@@ -260,6 +296,23 @@ impl Job<'_> {
                 read_checkpoint(saver.path()).is_ok().then(|| saver.path().to_owned())
             }
         }
+    }
+}
+
+/// Writes the film, or what is made of it; gives the number of bytes.
+fn write(file: PictureFile, film: &Film, what: What<'_>) -> Result<usize, WriteError> {
+    match what {
+        What::Picture(mut options, layers, alpha) => {
+            options.metadata.extend(film.sums().map(provenance::of_samples));
+            let Region { width, height, .. } = film.region();
+            let image = || Image { width, height, pixels: film.pixels().to_vec() };
+            match (layers, alpha) {
+                (Some(layers), _) => file.write_layers(layers, &options),
+                (None, Some(alpha)) => file.write_with_alpha(&image(), &alpha, &options),
+                (None, None) => file.write(&image(), &options),
+            }
+        }
+        What::Film(saver) => file.write_bytes(&saver.bytes(film)),
     }
 }
 
@@ -326,7 +379,9 @@ fn fitting(checkpoint: Checkpoint, saver: &Saver<'_>, region: Region) -> Result<
     if checkpoint.film.region() != region {
         return Err(Failure::file(format!("cannot go on with {path}: it is not of the part that it says")));
     }
-    saver.found(&checkpoint.film);
+    if !saver.is_off() {
+        saver.found(&checkpoint.film);
+    }
     Ok(checkpoint.film)
 }
 

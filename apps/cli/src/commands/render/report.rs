@@ -14,7 +14,8 @@ use std::path::PathBuf;
 pub(super) struct Report {
     scene: PathBuf,
     path: PathBuf,
-    format: FileFormat,
+    /// `None` for a film.
+    format: Option<FileFormat>,
     region: Region,
     finished: u64,
     rays: RayCounts,
@@ -67,7 +68,7 @@ pub(super) struct Seconds {
 
 impl Report {
     /// What the film says.
-    pub(super) fn new(scene: PathBuf, path: PathBuf, format: FileFormat, film: &Film) -> Report {
+    pub(super) fn new(scene: PathBuf, path: PathBuf, format: Option<FileFormat>, film: &Film) -> Report {
         Report {
             scene,
             path,
@@ -220,7 +221,7 @@ impl Report {
         output::print_json(&json!({
             "scene": self.scene.to_string_lossy(),
             "output": self.written_path().to_string_lossy(),
-            "format": self.format.name().to_lowercase(),
+            "format": self.format.map_or("film".to_owned(), |format| format.name().to_lowercase()),
             "bytes": self.bytes,
             "region": { "x": x, "y": y, "width": width, "height": height },
             "pixels": self.pixels(),
