@@ -85,7 +85,7 @@ mod tests {
         };
         (scene.picture.width, scene.picture.height) = (20, 12);
         scene.render.integrator = durer_scene::Integrator::PATH;
-        scene.render.samples = 8;
+        scene.render.samples = Some(8);
         scene.render.filter = PixelFilter::Mitchell { radius: 2.0 };
         compile(&scene.check().unwrap())
     }
