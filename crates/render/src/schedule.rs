@@ -159,7 +159,7 @@ fn samples_of(scene: &CompiledScene, options: &RenderOptions) -> Result<Option<S
     if !integrator.takes_samples() {
         return Ok(None);
     }
-    let samples = options.samples.unwrap_or(SampleRange { start: 0, end: scene.settings.samples });
+    let samples = options.samples.unwrap_or(SampleRange { start: 0, end: scene.settings.samples_a_pixel() });
     if samples.count() == 0 { Err(RenderError::NoSamples(integrator.word())) } else { Ok(Some(samples)) }
 }
 

@@ -31,7 +31,8 @@ impl MetalName {
     /// The complex index of refraction η + ik for red, green and blue: `[η, k]`.
     ///
     /// Aluminum, chromium, copper, gold and silver are spectra (Rakić, Palik, Johnson and Christy) seen by the eyes of the
-    /// standard observer, in linear sRGB; the others are the spectra of refractiveindex.info at 650, 550 and 450 nm.
+    /// standard observer, in linear sRGB; the others are measured values (refractiveindex.info) at 650, 550 and 450 nm, nickel's at 642, 529 and
+    /// 464 nm.
     pub fn index(self) -> [Rgb; 2] {
         let (eta, k) = match self {
             MetalName::Aluminum => ([1.657_46, 0.880_369, 0.521_229], [9.223_869, 6.269_523, 4.837_001]),
@@ -40,7 +41,7 @@ impl MetalName {
             MetalName::Copper => ([0.200_438, 0.924_033, 1.102_212], [3.912_949, 2.452_848, 2.142_188]),
             MetalName::Gold => ([0.143_119, 0.374_957, 1.442_479], [3.983_16, 2.385_721, 1.603_215]),
             MetalName::Iron => ([2.911_4, 2.949_7, 2.584_5], [3.089_3, 2.931_8, 2.767]),
-            MetalName::Nickel => ([2.0, 1.83, 1.66], [3.92, 3.41, 2.66]),
+            MetalName::Nickel => ([1.994_12, 1.732_04, 1.645_42], [3.768_2, 3.131_6, 2.737_1]),
             MetalName::Platinum => ([2.375_7, 2.084_7, 1.845_3], [4.265_5, 3.715_3, 3.136_5]),
             MetalName::Silver => ([0.155_265, 0.116_723, 0.138_342], [4.828_37, 3.122_5, 2.147_037]),
             MetalName::Titanium => ([2.740_7, 2.541_8, 2.267], [3.814_3, 3.434_5, 3.038_5]),

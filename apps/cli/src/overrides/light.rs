@@ -29,8 +29,8 @@ pub(crate) struct Light {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u32>,
 
-    /// Shadow rays of `whitted` to each light that has an area
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096), allow_negative_numbers = true)]
+    /// Shadow rays of `whitted` to each light that has an area; with 0, what glows lights nothing
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=4096), allow_negative_numbers = true)]
     light_samples: Option<u32>,
 
     /// Makes a PNG or JPEG brighter by a factor of 2 for each 1
@@ -45,7 +45,7 @@ pub(crate) struct Light {
 impl Light {
     pub(super) fn change_render(&self, render: &mut RenderSettings) {
         render.integrator = self.integrator.unwrap_or(render.integrator);
-        render.samples = self.samples.unwrap_or(render.samples);
+        render.samples = self.samples.or(render.samples);
         render.noise = self.noise.or(render.noise);
         render.time = self.time.or(render.time);
         render.seed = self.seed.unwrap_or(render.seed);

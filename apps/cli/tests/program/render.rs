@@ -135,6 +135,11 @@ fn the_command_line_wins_over_the_file() {
     assert!(different("--antialias grid:2"));
     assert!(different("--max-depth 1"));
     assert!(different("--transfer linear"));
+    assert!(different("--exposure 1"));
+    assert!(different("--tone-mapping aces"));
+    assert!(different("--integrator normals"));
+    assert!(!different("--integrator whitted --samples 3 --noise 0.5 --time 100 --seed 4"));
+    assert!(different("--integrator path:2 --samples 1"));
 }
 
 #[test]
@@ -148,6 +153,13 @@ fn settings_beyond_the_limits_name_their_option() {
     workshop.fails("render room.yaml --antialias recursive:nan", 2, "--antialias");
     workshop.fails("render room.yaml --antialias often", 2, "recursive[:THRESHOLD");
     workshop.fails("render room.yaml --max-depth 0", 2, "0 is not in 1..=100");
+    workshop.fails("render room.yaml --integrator magic", 2, "expected `whitted`, `path");
+    workshop.fails("render room.yaml --integrator path:0", 2, "--integrator: max_depth must be from 1");
+    workshop.fails("render room.yaml --samples 0", 2, "0 is not in 1..=1000000");
+    workshop.fails("render room.yaml --noise 7", 2, "--noise: noise must be from 0.0001 to 1");
+    workshop.fails("render room.yaml --time -1", 2, "--time: time must be from 0.001");
+    workshop.fails("render room.yaml --exposure dark", 2, "expected a number from -100 to 100");
+    workshop.fails("render room.yaml --tone-mapping film", 2, "--tone-mapping");
     workshop.fails("render room.yaml --crop 20,0,5,5", 2, "--crop");
     workshop.fails("render room.yaml --crop 1,2,3", 2, "--crop");
     workshop.fails("render room.yaml --crop -1,0,2,2", 2, "expected four whole numbers");

@@ -261,7 +261,7 @@ record!(Emission {
     sides: Sides = Sides::Both => "Which sides of the surface give it off.";
 });
 
-choice! { Sides, "sides";
+choice! { Sides, "side";
     Both "both": "Both sides.", example "sides: both", {}
     Front "front": "That of the surface's own normal; of closed shapes the outside.", example "sides: front", {}
 }

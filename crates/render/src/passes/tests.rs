@@ -19,7 +19,7 @@ fn scene(width: u32, height: u32, change: impl FnOnce(&mut RenderSettings)) -> C
         ..Scene::default()
     };
     scene.render.integrator = Kind::Path { max_depth: 4, clamp: None };
-    scene.render.samples = 7;
+    scene.render.samples = Some(7);
     change(&mut scene.render);
     compile(&scene.check().unwrap())
 }
@@ -60,7 +60,7 @@ fn threads_and_stops_change_nothing() {
         for noise in [None, Some(0.05)] {
             let scene = scene(70, 45, |settings| {
                 (settings.filter, settings.noise) = (filter, noise);
-                settings.samples = if noise.is_some() { 40 } else { 7 };
+                settings.samples = Some(if noise.is_some() { 40 } else { 7 });
             });
             let whole = render(&scene, &options(1), &()).unwrap();
             assert!(whole.is_complete());
@@ -79,7 +79,7 @@ fn threads_and_stops_change_nothing() {
 /// After any tile, all of the picture can be seen once the first pass is over.
 #[test]
 fn what_is_there_is_a_picture() {
-    let scene = scene(70, 45, |settings| settings.samples = 8);
+    let scene = scene(70, 45, |settings| settings.samples = Some(8));
     let film = render(&scene, &options(1), &After(AtomicU64::new(6 + 2))).unwrap();
     assert_eq!(film.sums().unwrap().least_and_most(), (1, 2));
     assert!(film.pixels().iter().all(|pixel| !pixel.is_black()));
@@ -88,15 +88,15 @@ fn what_is_there_is_a_picture() {
 
 #[test]
 fn a_sample_does_not_depend_on_how_many_there_are() {
-    let few = render(&scene(20, 10, |settings| settings.samples = 3), &options(1), &()).unwrap();
+    let few = render(&scene(20, 10, |settings| settings.samples = Some(3)), &options(1), &()).unwrap();
     let of_many = RenderOptions { samples: Some(SampleRange { start: 0, end: 3 }), ..options(1) };
-    assert_eq!(render(&scene(20, 10, |settings| settings.samples = 1000), &of_many, &()).unwrap(), few);
+    assert_eq!(render(&scene(20, 10, |settings| settings.samples = Some(1000)), &of_many, &()).unwrap(), few);
 }
 
 #[test]
 fn noise_takes_samples_to_where_it_is() {
     let target = 0.02;
-    let scene = scene(64, 48, |settings| (settings.noise, settings.samples) = (Some(target), 2000));
+    let scene = scene(64, 48, |settings| (settings.noise, settings.samples) = (Some(target), Some(2000)));
     let film = render(&scene, &options(2), &()).unwrap();
     let sums = film.sums().unwrap();
     let (least, most) = sums.least_and_most();
@@ -118,16 +118,16 @@ fn noise_takes_samples_to_where_it_is() {
 /// It ends in time with as many samples everywhere, and that many give the same picture.
 #[test]
 fn time_ends_with_whole_passes() {
-    let limited = scene(64, 64, |settings| (settings.time, settings.samples) = (Some(100.0), 4096));
+    let limited = scene(64, 64, |settings| (settings.time, settings.samples) = (Some(100.0), None));
     let film = render(&limited, &options(1), &Ticking(Mutex::new(3.0))).unwrap();
     assert!(film.is_complete());
     let (least, most) = film.sums().unwrap().least_and_most();
     // Four tiles each second of a pass: there is time for 5 passes, with 1, 1, 2, 4 and 8 samples, and more.
     assert_eq!(least, most);
     assert!(least >= 31, "{least}");
-    let counted = render(&scene(64, 64, |settings| settings.samples = least), &options(1), &()).unwrap();
+    let counted = render(&scene(64, 64, |settings| settings.samples = Some(least)), &options(1), &()).unwrap();
     assert_eq!(counted, film);
-    let late = scene(64, 64, |settings| (settings.time, settings.samples) = (Some(0.5), 4096));
+    let late = scene(64, 64, |settings| (settings.time, settings.samples) = (Some(0.5), None));
     let film = render(&late, &options(1), &Ticking(Mutex::new(3.0))).unwrap();
     assert_eq!(film.sums().unwrap().least_and_most(), (1, 1));
 }
@@ -144,7 +144,7 @@ fn samples_that_nobody_takes_are_refused() {
 /// Any cut of the picture and of its samples, in any order: the film of one run.
 #[test]
 fn parts_make_the_film_of_one_run() {
-    let scene = scene(40, 30, |settings| settings.samples = 10);
+    let scene = scene(40, 30, |settings| settings.samples = Some(10));
     let part = |x, y, width, height, start, end| {
         let region = Some(Region { x, y, width, height });
         let samples = Some(SampleRange { start, end });
@@ -170,7 +170,7 @@ fn parts_make_the_film_of_one_run() {
 
 #[test]
 fn films_that_do_not_fit_are_not_merged() {
-    let scene = scene(40, 30, |settings| settings.samples = 3);
+    let scene = scene(40, 30, |settings| settings.samples = Some(3));
     let film = render(&scene, &options(1), &()).unwrap();
     let overlap = Film::merge(&[film.clone(), film.clone()]);
     assert!(matches!(overlap, Err(MergeError::Overlap { first: 0, second: 1, .. })));
@@ -185,7 +185,7 @@ fn films_that_do_not_fit_are_not_merged() {
 /// Under an even sky, a white ball alone sends on direct light only; on a floor it is less than all.
 #[test]
 fn direct_light_is_a_part_of_all_light() {
-    let scene = scene(40, 30, |settings| settings.samples = 16);
+    let scene = scene(40, 30, |settings| settings.samples = Some(16));
     let film = render(&scene, &RenderOptions { direct: true, ..options(1) }, &()).unwrap();
     let sums = film.sums().unwrap();
     assert_eq!(film.pixels(), render(&scene, &options(1), &()).unwrap().pixels());

@@ -104,7 +104,8 @@ impl Job<'_> {
         let wanted = layers.as_deref().unwrap_or_default();
         let (film, seen, [build, render]) =
             self.trace(&scene, (film, region, wanted), &interrupt, saver.as_ref(), show)?;
-        let report = Report::new(arguments.scene.path.clone(), path, format, &film).after(rays_before);
+        let report =
+            Report::new(arguments.scene.path.clone(), path, format, &film, picture.exposure).after(rays_before);
         let report = report.with_seconds(Seconds { load, build, render, write: 0.0 }).stopped_by(interrupt.reason());
         let layers = layers.map(|layers| film_layers(&film, seen.as_ref(), &layers, options.exr_samples));
         let what = match (format, &saver) {
