@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use crate::commands::{check, compare, completions, develop, explain, heatmap, info, man, render, resume};
+use crate::commands::{check, compare, completions, develop, explain, heatmap, info, man, merge, render, resume};
 use crate::exit::EXIT_CODES;
 use clap::{Parser, Subcommand};
 
@@ -26,6 +26,7 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     Render(render::Arguments),
     Resume(resume::Arguments),
+    Merge(merge::Arguments),
     Check(check::Arguments),
     Info(info::Arguments),
     Explain(explain::Arguments),

@@ -8,6 +8,7 @@ pub(crate) mod explain;
 pub(crate) mod heatmap;
 pub(crate) mod info;
 pub(crate) mod man;
+pub(crate) mod merge;
 pub(crate) mod render;
 pub(crate) mod resume;
 mod schema;
@@ -20,6 +21,7 @@ pub(crate) fn run(command: &Command) -> Result<Exit, Failure> {
     match command {
         Command::Render(arguments) => render::run(arguments),
         Command::Resume(arguments) => resume::run(arguments),
+        Command::Merge(arguments) => merge::run(arguments),
         Command::Check(arguments) => check::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),

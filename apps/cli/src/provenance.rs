@@ -54,6 +54,7 @@ pub(crate) fn of_render(loaded: Fingerprint, rendered: &Scene, crop: Option<Regi
     let tone_mapping = tone_mapping_word(tone_mapping);
     entries.extend((exposure != 0.0).then(|| entry("Exposure", exposure.to_string())));
     entries.extend((tone_mapping != "none").then(|| entry("Tone mapping", tone_mapping)));
+    let crop = crop.filter(|region| (region.width, region.height) != (width, height));
     entries.extend(crop.map(|Region { x, y, width, height }| entry("Crop", format!("{x},{y},{width},{height}"))));
     entries
 }

@@ -120,7 +120,8 @@ impl PictureFile {
         self.write_bytes(&bytes)
     }
 
-    fn write_bytes(mut self, bytes: &[u8]) -> Result<usize, WriteError> {
+    /// Writes these bytes and gives the file its name; gives their number.
+    pub fn write_bytes(mut self, bytes: &[u8]) -> Result<usize, WriteError> {
         // What was reserved is written over first and cut off then, so that no one else can take the room; and the file
         // stays open, and so locked, until it has its name.
         let written = match &mut self.file {

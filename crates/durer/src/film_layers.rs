@@ -2,9 +2,7 @@
 
 use durer_imaging::{BEAUTY, ExrSamples, Layer, Layers, Samples};
 use durer_math::Rgb;
-use durer_render::{
-    CompiledScene, Film, Progress, Region, RenderError, RenderOptions, SeenFirst, Sums, direct_light, seen_first,
-};
+use durer_render::{Film, Region, SeenFirst, Sums};
 use durer_scene::Integrator;
 
 /// A layer that a film file can have.
@@ -85,6 +83,16 @@ impl FilmLayer {
         }
     }
 
+    /// True if it is made of what the eye's rays meet first.
+    pub fn is_seen_first(self) -> bool {
+        self.source() == Source::SeenFirst
+    }
+
+    /// True if it is made of what the film knows apart of direct light.
+    pub fn is_of_paths(self) -> bool {
+        self.source() == Source::Paths
+    }
+
     /// What it is made of.
     fn source(self) -> Source {
         match self {
@@ -134,42 +142,10 @@ enum Source {
     Picture,
     /// What the eye's rays meet first.
     SeenFirst,
-    /// The same paths once more, not as far.
+    /// What the film keeps apart of direct light.
     Paths,
     /// What the film knows of its samples.
     Sums,
-}
-
-/// What is to be found out of a scene, beside its film, for layers.
-#[derive(Clone, Debug, Default)]
-pub struct Beside {
-    seen: Option<SeenFirst>,
-    direct: Option<Vec<Rgb>>,
-}
-
-impl Beside {
-    /// Finds out what these layers need. Direct light takes about as long as the first two segments of all paths; what is seen
-    /// first takes [`SeenFirst::SAMPLES`] rays a pixel.
-    ///
-    /// # Errors
-    ///
-    /// The system refused to start the threads, or the film is not one of the scene.
-    pub fn find(
-        scene: &CompiledScene,
-        film: &Film,
-        layers: &[FilmLayer],
-        threads: Option<usize>,
-        progress: &dyn Progress,
-    ) -> Result<Beside, RenderError> {
-        let options = RenderOptions { region: Some(film.region()), threads, ..RenderOptions::default() };
-        let wants = |source: Source| layers.iter().any(|layer| layer.source() == source);
-        let seen = wants(Source::SeenFirst).then(|| seen_first(scene, &options, progress)).transpose()?;
-        let direct = match wants(Source::Paths) {
-            true => direct_light(scene, film, &options, progress)?,
-            false => None,
-        };
-        Ok(Beside { seen, direct })
-    }
 }
 
 /// The layers of a film, those that there are: integrators other than path tracing know no direct and indirect light, and
@@ -177,17 +153,22 @@ impl Beside {
 ///
 /// Light and albedo are in the precision for colors, ids and counts are whole numbers; depth, places, coordinates and variance
 /// are in single precision, normals in half.
-pub fn film_layers(film: &Film, beside: &Beside, layers: &[FilmLayer], colors: ExrSamples) -> Layers {
+pub fn film_layers(film: &Film, seen: Option<&SeenFirst>, layers: &[FilmLayer], colors: ExrSamples) -> Layers {
     let Region { width, height, .. } = film.region();
-    let seen = beside.seen.as_ref().filter(|seen| seen.region == film.region());
-    let direct = beside.direct.as_ref().filter(|direct| direct.len() == film.pixels().len());
+    let seen = seen.filter(|seen| seen.region == film.region());
+    let direct = film.sums().and_then(direct_light);
     let layer = |layer: &FilmLayer| match layer.source() {
         Source::Picture => Some(Layer::of_colors(layer.name(), film.pixels(), colors)),
         Source::SeenFirst => of_seen(*layer, seen?, colors),
-        Source::Paths => of_paths(*layer, film.pixels(), direct?, colors),
+        Source::Paths => of_paths(*layer, film.pixels(), direct.as_ref()?, colors),
         Source::Sums => of_sums(*layer, film.sums()?),
     };
     Layers { width, height, layers: layers.iter().filter_map(layer).collect() }
+}
+
+/// Of each pixel, if the film keeps it.
+fn direct_light(sums: &Sums) -> Option<Vec<Rgb>> {
+    (0..sums.taken.len()).map(|pixel| sums.direct_mean(pixel)).collect()
 }
 
 fn of_seen(layer: FilmLayer, seen: &SeenFirst, colors: ExrSamples) -> Option<Layer> {
@@ -253,10 +234,9 @@ mod tests {
         let scene = crate::compile(&loaded.scene);
         let options = crate::RenderOptions::default();
         let film = crate::render(&scene, &options, &()).unwrap();
-        let beside = Beside::find(&scene, &film, &FilmLayer::ALL, None, &()).unwrap();
-        let layers = film_layers(&film, &beside, &FilmLayer::ALL, ExrSamples::Float);
+        let seen = crate::seen_first(&scene, &options, &()).unwrap();
+        let layers = film_layers(&film, Some(&seen), &FilmLayer::ALL, ExrSamples::Float);
         assert_eq!(layers.layers.len(), 8, "there are no samples");
-        let seen = beside.seen.unwrap();
         let (middle, corner) = (15 * 40 + 20, 0);
         let at = |layer: FilmLayer, channel: &str, pixel: usize| {
             layers.get(layer.name()).and_then(|layer| layer.channel(channel)).map(|samples| samples.get(pixel))
@@ -281,7 +261,7 @@ mod tests {
         assert_eq!(at(FilmLayer::Beauty, "G", middle), Some(film.pixels()[middle].g));
         let share = seen.coverage.iter().filter(|&&part| part > 0.0 && part < 1.0).count();
         assert!(share > 20, "edges are partly covered: {share}");
-        let without = film_layers(&film, &Beside::default(), &FilmLayer::ALL, ExrSamples::Half);
+        let without = film_layers(&film, None, &FilmLayer::ALL, ExrSamples::Half);
         assert_eq!(without.layers.len(), 1);
         let most = FilmLayer::most_bytes(&FilmLayer::ALL, ExrSamples::Float, 40, 30);
         let bytes = encode_layers(layers, &EncodeOptions::new(FileFormat::Exr)).unwrap().len() as u64;
@@ -297,12 +277,11 @@ mod tests {
             objects: [plane, sphere: {center: [0, 1, 0]}]";
         let loaded = crate::load_str(text, "test", &crate::NoAssets, &crate::Limits::default()).unwrap();
         let scene = crate::compile(&loaded.scene);
-        let film = crate::render(&scene, &RenderOptions::default(), &()).unwrap();
+        let options = crate::RenderOptions { direct: true, ..crate::RenderOptions::default() };
+        let film = crate::render(&scene, &options, &()).unwrap();
         let wanted =
             [FilmLayer::Beauty, FilmLayer::Direct, FilmLayer::Indirect, FilmLayer::Variance, FilmLayer::Samples];
-        let beside = Beside::find(&scene, &film, &wanted, None, &()).unwrap();
-        assert!(beside.seen.is_none(), "nobody asked for it");
-        let layers = film_layers(&film, &beside, &wanted, ExrSamples::Float);
+        let layers = film_layers(&film, None, &wanted, ExrSamples::Float);
         let at = |layer: FilmLayer, channel: &str, pixel: usize| {
             layers.get(layer.name()).and_then(|layer| layer.channel(channel)).map(|samples| samples.get(pixel)).unwrap()
         };

@@ -385,7 +385,13 @@ fn settings() -> BoxedStrategy<Scene> {
         Just(Integrator::Depth),
         Just(Integrator::Uv),
     ];
-    let sampling = (1_u32..999, prop::option::of(0.001_f32..0.5), prop::option::of(0.5..99.0), any::<u32>(), 1_u32..64);
+    let sampling = (
+        prop::option::of(1_u32..999),
+        prop::option::of(0.001_f32..0.5),
+        prop::option::of(0.5..99.0),
+        any::<u32>(),
+        1_u32..64,
+    );
     let trees = prop::sample::select(vec![Trees::Preview, Trees::Picture, Trees::ManyRays]);
     let radius = || 0.5..8.0;
     let filter = prop_oneof![

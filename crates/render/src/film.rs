@@ -1,5 +1,6 @@
 //! What has been gathered so far: the only thing that changes while rendering.
 
+mod merge;
 mod region;
 mod sums;
 
@@ -8,6 +9,7 @@ use durer_imaging::Image;
 use durer_math::{DVec2, Rgb};
 use std::cmp::Ordering::Equal;
 
+pub use merge::MergeError;
 pub use region::Region;
 pub(crate) use region::TILE;
 pub use sums::{Part, SampleRange, Sums};
@@ -27,6 +29,8 @@ pub struct Film {
     account: Account,
     /// Of integrators that take samples; `pixels` are their means then.
     sums: Option<Sums>,
+    /// All that were taken.
+    samples: u64,
 }
 
 /// A [`Film`] taken apart, to be stored and put together again. The default is that of nothing at all.
@@ -109,12 +113,13 @@ impl Film {
             finished_pixels: 0,
             account: Account::default(),
             sums: None,
+            samples: 0,
         }
     }
 
     /// A black film for these samples, none of which is taken.
-    pub(crate) fn of_samples(region: Region, samples: SampleRange) -> Film {
-        Film { sums: Some(Sums::new(Part { region, samples })), ..Film::new(region) }
+    pub(crate) fn of_samples(region: Region, samples: SampleRange, direct: bool) -> Film {
+        Film { sums: Some(Sums::new(Part { region, samples }, direct)), ..Film::new(region) }
     }
 
     /// Puts a film together; `None` if the parts do not fit each other.
@@ -133,15 +138,15 @@ impl Film {
         let tiles = region.tiles().zip(&finished).filter(|(_, finished)| **finished);
         let finished_pixels = tiles.map(|(tile, _)| tile.pixels()).sum();
         let Some(sums) = sums else {
-            return Some(Film { region, pixels, depths, finished, finished_pixels, account, sums: None });
+            return Some(Film { region, pixels, depths, finished, finished_pixels, account, sums: None, samples: 0 });
         };
         let is_finished = finished_pixels == region.pixels();
         if !(is_finished || finished_pixels == 0) || !sums.fit(region, is_finished) {
             return None;
         }
         let pixels: Vec<Rgb> = (0..sums.taken.len()).map(|pixel| sums.mean(pixel)).collect();
-        let depths = vec![0; pixels.len()];
-        Some(Film { region, pixels, depths, finished, finished_pixels, account, sums: Some(sums) })
+        let (depths, samples) = (vec![0; pixels.len()], sums.samples());
+        Some(Film { region, pixels, depths, finished, finished_pixels, account, sums: Some(sums), samples })
     }
 
     /// Adds samples of pixels.
@@ -150,6 +155,7 @@ impl Film {
         for ((x, y), more) in tile.region.pixel_places().zip(&tile.pixels) {
             let pixel = self.region.index_of(x, y);
             sums.add(pixel, more);
+            self.samples = self.samples.saturating_add(more.taken.into());
             self.pixels[pixel] = sums.mean(pixel);
         }
         self.account.add(&tile.account);
@@ -222,7 +228,7 @@ impl Film {
 
     /// How far it has come: its finished pixels, or the samples that it has.
     pub fn done(&self) -> u64 {
-        self.sums.as_ref().map_or(self.finished_pixels, Sums::samples)
+        if self.sums.is_some() { self.samples } else { self.finished_pixels }
     }
 
     /// True if every pixel is finished.

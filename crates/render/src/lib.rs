@@ -42,10 +42,9 @@ pub use explain::{
     Contribution, Element, HitExplanation, HoleExplanation, LightExplanation, PixelExplanation, RayExplanation,
     SampleExplanation, explain,
 };
-pub use film::{BadSample, Film, FilmParts, Part, Region, SampleRange, Sums};
+pub use film::{BadSample, Film, FilmParts, MergeError, Part, Region, SampleRange, Sums};
 pub use heatmap::{HeatMap, heatmap};
 pub use memory::memory_needed;
 pub use observer::{NotTraced, RayCounts, RayKind, Scattering, Source, Weighing};
-pub use passes::direct_light;
 pub use schedule::{Progress, RenderError, RenderOptions, render, render_on, with_threads};
 pub use seen_first::{SeenFirst, seen_first};

@@ -7,8 +7,6 @@
 mod direct;
 mod noise;
 
-pub use direct::direct_light;
-
 use crate::compile::CompiledScene;
 use crate::film::{Film, PixelSums, Region, SampleRange, SampledTile, TILE};
 use crate::filter_sampling::FilterSampling;
@@ -17,8 +15,9 @@ use crate::integrators::Integrator;
 use crate::sampler::{Purpose, Sampler};
 use crate::schedule::{Progress, in_tiles};
 use arrayvec::ArrayVec;
+use direct::Direct;
 use durer_geometry::{LANES, Packet, Ray};
-use durer_math::DVec2;
+use durer_math::{DVec2, Rgb};
 use noise::Noise;
 
 /// When it is enough.
@@ -40,7 +39,8 @@ pub(crate) fn render_samples<I: Integrator>(
     progress: &dyn Progress,
 ) {
     let filter = FilterSampling::new(scene.settings.filter);
-    let sampling = Sampling { scene, integrator, filter, first: goal.samples.start };
+    let direct = film.sums().is_some_and(|sums| !sums.direct.is_empty());
+    let sampling = Sampling { scene, integrator, filter, first: goal.samples.start, direct };
     let mut clock = Clock { limit: goal.time, begun: None };
     while !film.is_complete() {
         let Some(pass) = next_pass(scene, film, goal, &mut clock, progress) else {
@@ -160,6 +160,8 @@ struct Sampling<'a, I> {
     filter: FilterSampling,
     /// The number of a pixel's first sample.
     first: u32,
+    /// Direct light is known apart.
+    direct: bool,
 }
 
 /// A sample before it is traced.
@@ -193,8 +195,14 @@ impl<I: Integrator> Sampling<'_, I> {
         let begun: ArrayVec<Begun, LANES> = samples.iter().map(|&number| self.begin(pixel, number)).collect();
         let trace = |begun: &Begun, known: Known<'_>, sums: &mut PixelSums, tile: &mut SampledTile| {
             let Begun { sampler, at, is_negative, ray } = begun;
-            let color = self.integrator.radiance(scene, ray, known, sampler, &mut tile.account.rays);
-            if sums.add(color, *is_negative).is_err() {
+            let rays = &mut tile.account.rays;
+            let (color, direct) = if self.direct {
+                let mut apart = Direct::new(rays);
+                (self.integrator.radiance(scene, ray, known, sampler, &mut apart), apart.light())
+            } else {
+                (self.integrator.radiance(scene, ray, known, sampler, rays), Rgb::BLACK)
+            };
+            if sums.add(color, direct, *is_negative).is_err() {
                 tile.account.bad_sample(*at);
             }
         };

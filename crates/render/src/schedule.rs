@@ -31,6 +31,8 @@ pub struct RenderOptions {
     /// For integrators that take samples: exactly these of each pixel, whatever the scene says of noise and time. `None`
     /// takes what the scene says.
     pub samples: Option<SampleRange>,
+    /// For integrators that take samples: know light that met one surface at most apart. It changes no pixel.
+    pub direct: bool,
 }
 
 /// Hears of progress, and may stop the rendering. Called from several threads.
@@ -112,7 +114,7 @@ pub fn with_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + 
 pub fn render(scene: &CompiledScene, options: &RenderOptions, progress: &dyn Progress) -> Result<Film, RenderError> {
     let region = region_of(scene, options)?;
     let film = match (samples_of(scene, options)?, options.samples) {
-        (Some(samples), _) => Film::of_samples(region, samples),
+        (Some(samples), _) => Film::of_samples(region, samples, options.direct),
         (None, None) => Film::new(region),
         (None, Some(_)) => return Err(RenderError::NoSamples(scene.settings.integrator.word())),
     };
@@ -157,7 +159,7 @@ fn samples_of(scene: &CompiledScene, options: &RenderOptions) -> Result<Option<S
     if !integrator.takes_samples() {
         return Ok(None);
     }
-    let samples = options.samples.unwrap_or(SampleRange { start: 0, end: scene.settings.samples });
+    let samples = options.samples.unwrap_or(SampleRange { start: 0, end: scene.settings.samples_a_pixel() });
     if samples.count() == 0 { Err(RenderError::NoSamples(integrator.word())) } else { Ok(Some(samples)) }
 }
 

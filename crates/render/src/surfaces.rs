@@ -68,6 +68,9 @@ impl Indices {
 /// Indices of refraction that differ by no more than this bend nothing.
 const EQUAL: f64 = 1e-6;
 
+/// Colors of classic surfaces may be above 1, for they are scaled down, but are numbers.
+const BRIGHTEST: f32 = 1e6;
+
 impl Scattering {
     pub(crate) fn compile(kind: &MaterialKind) -> Scattering {
         match kind {
@@ -231,7 +234,7 @@ fn boundary(eta: f64, tint: Rgb, ggx: Option<Ggx>) -> Bsdf {
 
 fn classic(classic: &durer_scene::Classic, color: Rgb, indices: Indices) -> Bsdf {
     let parts = Parts {
-        diffuse: color.map(|c| c.max(0.0)) * classic.diffuse,
+        diffuse: color.map(|c| if c > 0.0 { c.min(BRIGHTEST) } else { 0.0 }) * classic.diffuse,
         specular: classic.specular,
         shininess: classic.shininess,
         reflection: classic.reflection,

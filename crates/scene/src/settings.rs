@@ -47,10 +47,12 @@ impl Picture {
 pub struct RenderSettings {
     /// What is computed.
     pub integrator: Integrator,
-    /// Samples a pixel, for integrators that sample at random: exactly so many, or with a `noise` or `time` at most.
-    pub samples: u32,
-    /// Samples are taken until the estimated error of each part of the picture is below this: the standard error of a
-    /// pixel against its brightness, so 0.01 is one in a hundred. `None` takes `samples` everywhere.
+    /// Samples a pixel, for integrators that sample at random: exactly so many, or with a `noise` or `time` at most. `None`
+    /// is [`RenderSettings::SAMPLES`] of them, or [`RenderSettings::MOST_SAMPLES`] with a `noise` or `time`.
+    pub samples: Option<u32>,
+    /// Samples are taken until the estimated error of each part of the picture is below this: the standard error of pixels
+    /// over the root of their brightness, as it is seen on a screen; in white, 0.01 is one in a hundred. `None` takes
+    /// `samples` everywhere.
     pub noise: Option<f32>,
     /// No samples are begun after this many seconds; `None` sets no limit. The picture then depends on the machine.
     pub time: Option<f64>,
@@ -75,7 +77,7 @@ impl Default for RenderSettings {
     fn default() -> RenderSettings {
         RenderSettings {
             integrator: Integrator::Whitted,
-            samples: 64,
+            samples: None,
             noise: None,
             time: None,
             seed: 0,
@@ -86,6 +88,19 @@ impl Default for RenderSettings {
             filter: PixelFilter::default(),
             trees: Trees::default(),
         }
+    }
+}
+
+impl RenderSettings {
+    /// Samples a pixel, unless something else is said.
+    pub const SAMPLES: u32 = 64;
+    /// The most samples of a pixel where something else ends them, unless it is said.
+    pub const MOST_SAMPLES: u32 = 4096;
+
+    /// The most samples of a pixel, for integrators that sample at random.
+    pub fn samples_a_pixel(&self) -> u32 {
+        let is_open = self.noise.is_some() || self.time.is_some();
+        self.samples.unwrap_or(if is_open { RenderSettings::MOST_SAMPLES } else { RenderSettings::SAMPLES })
     }
 }
 

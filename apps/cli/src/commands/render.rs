@@ -12,7 +12,7 @@ use crate::load::SceneArgs;
 use crate::overrides::Overrides;
 use crate::target::FileOptions;
 use clap::Args;
-use durer::{Origin, Region, SampleRange, SimdLevel};
+use durer::{Film, Origin, Region, SampleRange, SimdLevel};
 use layers::LayerOptions;
 use saving::Saving;
 use std::path::{Path, PathBuf};
@@ -30,7 +30,8 @@ Examples:
   durer render room.yaml --crop 100,80,64,64 -o detail.png
   durer render room.yaml --antialias recursive:0.1,3 --stats json > room.json
 
-The format follows the extension: png, jpg, exr, hdr or pfm. The picture is the same
+The format follows the extension: png, jpg, exr, hdr or pfm; film keeps exact sums of
+samples, for `durer merge`. The picture is the same
 whatever the number of threads. Ctrl-C stops after the tiles being worked on and saves
 what is finished beside the picture, as room.partial.png for room.png, which stays as it
 was; the second Ctrl-C quits at once. A render that takes over a minute keeps what is
@@ -44,7 +45,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     scene: SceneArgs,
 
-    /// The picture file [default: the scene's name with .png, in this folder]
+    /// The picture file, or a film file to be merged with others [default: the scene's name with .png, in this folder]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
@@ -95,6 +96,22 @@ impl Arguments {
             Some(path) => path.clone(),
             None => PathBuf::from(self.scene.name()).with_extension("png"),
         }
+    }
+
+    /// Makes it one that writes what a film says, which is of this part and has all of its samples, to another file.
+    pub(crate) fn developed(&mut self, film: &Film, folder: &Path, output: PathBuf) {
+        if std::env::current_dir().is_ok_and(|here| here != folder) {
+            self.scene.move_to(folder);
+        }
+        self.output = Some(output);
+        self.crop = Some(film.region());
+        self.saving.checkpoint = None;
+        self.saving.no_checkpoint = true;
+    }
+
+    /// True if it writes a film file.
+    pub(crate) fn writes_film(&self) -> bool {
+        crate::target::is_film(&self.output_path())
     }
 
     /// Makes it a render in another folder, whose checkpoints go where they have been so far.

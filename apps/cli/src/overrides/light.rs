@@ -45,7 +45,7 @@ pub(crate) struct Light {
 impl Light {
     pub(super) fn change_render(&self, render: &mut RenderSettings) {
         render.integrator = self.integrator.unwrap_or(render.integrator);
-        render.samples = self.samples.unwrap_or(render.samples);
+        render.samples = self.samples.or(render.samples);
         render.noise = self.noise.or(render.noise);
         render.time = self.time.or(render.time);
         render.seed = self.seed.unwrap_or(render.seed);

@@ -4,6 +4,7 @@ mod checkpoint;
 mod compare;
 mod develop;
 mod explain;
+mod films;
 mod heatmap;
 mod hostile;
 mod inspect;

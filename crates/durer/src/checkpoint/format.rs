@@ -44,7 +44,7 @@ fn text(out: &mut Vec<u8>, text: &str) {
 
 /// Of a film, and of all else that is not unusually long.
 fn most_bytes(film: &Film) -> usize {
-    let pixel = if film.sums().is_some() { SUMS } else { 13 };
+    let pixel = film.sums().map_or(13, |sums| if sums.direct.is_empty() { SUMS } else { SUMS + 48 });
     pixel * film.pixels().len() + film.finished_tiles().len() + 4096
 }
 
@@ -65,6 +65,7 @@ fn put_film(out: &mut Vec<u8>, film: &Film) {
     out.push(u8::from(film.sums().is_some()));
     if let Some(sums) = film.sums() {
         out.push(u8::from(film.is_complete()));
+        out.push(u8::from(!sums.direct.is_empty()));
         put_sums(out, sums);
         return;
     }
@@ -87,7 +88,7 @@ fn put_sums(out: &mut Vec<u8>, sums: &Sums) {
     }
     let counts = sums.taken.iter().chain(sums.counts.as_flattened());
     counts.for_each(|count| out.extend_from_slice(&count.to_le_bytes()));
-    let amounts = sums.colors.as_flattened().iter().chain(&sums.squares);
+    let amounts = [&sums.colors[..], &sums.direct].into_iter().flatten().flatten().chain(&sums.squares);
     amounts.for_each(|amount| out.extend_from_slice(&amount.to_le_bytes()));
 }
 
@@ -200,7 +201,7 @@ impl<'a> Input<'a> {
     }
 
     fn with_sums(&mut self, parts: FilmParts) -> Option<FilmParts> {
-        let (region, is_finished) = (parts.region, self.flag()?);
+        let (region, is_finished, has_direct) = (parts.region, self.flag()?, self.flag()?);
         let of = self.list(|input| {
             let region = input.region()?;
             Some(Part { region, samples: SampleRange { start: input.u32()?, end: input.u32()? } })
@@ -215,6 +216,7 @@ impl<'a> Input<'a> {
             taken: numbers(self.bytes(pixels.checked_mul(4)?)?),
             counts: numbers(self.bytes(pixels.checked_mul(8)?)?).as_chunks().0.to_vec(),
             colors: amounts(self.bytes(pixels.checked_mul(48)?)?).as_chunks().0.to_vec(),
+            direct: amounts(self.bytes(if has_direct { pixels.checked_mul(48)? } else { 0 })?).as_chunks().0.to_vec(),
             squares: amounts(self.bytes(pixels.checked_mul(16)?)?),
         };
         // All sums of so many pixels are there, so that there are not too many tiles either.

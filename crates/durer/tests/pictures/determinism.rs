@@ -37,7 +37,7 @@ fn rendered(scene: &CompiledScene, options: &RenderOptions) -> Film {
 fn any_number_of_threads_gives_the_same_film() {
     for mode in MODES {
         let scene = small_room(mode, 75, 70);
-        let one = rendered(&scene, &RenderOptions { threads: Some(1), region: None, samples: None });
+        let one = rendered(&scene, &RenderOptions { threads: Some(1), ..RenderOptions::default() });
         assert_eq!(one.finished_pixels(), 75 * 70);
         for threads in [2, 3, 8] {
             let many = rendered(&scene, &RenderOptions { threads: Some(threads), ..Default::default() });

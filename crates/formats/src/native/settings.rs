@@ -42,8 +42,8 @@ choice_value!(ToneMapping, ToneMapping::None);
 
 record!(RenderSettings {
     integrator: Integrator = Integrator::Whitted => "What is computed.";
-    samples: u32 = 64 => "Samples a pixel where light is sampled at random, at most if there is a `noise` or `time`; 1 to 1e6.";
-    noise: Option<f32> = None => "Where light is sampled at random: samples are taken until the error of each part of the picture is below this part of its brightness; 0.0001 to 1.";
+    samples: Option<u32> = None => "Samples a pixel where light is sampled at random, 1 to 1e6; 64 if it is left out. With a `noise` or `time` it is the most of a pixel, 4096 if it is left out.";
+    noise: Option<f32> = None => "Where light is sampled at random: samples are taken until the error of each part of the picture is below this, as part of the white of a screen; 0.0001 to 1.";
     time: Option<f64> = None => "Begins no samples after this many seconds.";
     seed: u32 = 0 => "Where light is sampled at random: another number gives other noise.";
     light_samples: u32 = 16 => "`whitted`: shadow rays to each light that has an area, up to 4096; with 0, what glows lights nothing.";

@@ -73,6 +73,10 @@ impl Primitive {
         let chosen = piece.sample(from, at)?;
         let surface = self.surface_near(chosen.point, chosen.part);
         let side = surface.normal.dot(from - surface.point);
+        // From a place on the surface itself there is nothing to see, but for rounding.
+        if side.abs() <= 2.0 * surface.offset {
+            return None;
+        }
         let way = surface.point + surface.normal * surface.offset.copysign(side) - from;
         let distance = way.length();
         let aim = Aim { surface, part: chosen.part, direction: way / distance, distance, pdf: chosen.pdf };

@@ -37,6 +37,8 @@ pub struct Sums {
     pub counts: Vec<[u32; 2]>,
     /// Of the colors, in linear light and steps of 2⁻⁶⁰.
     pub colors: Vec<[i128; 3]>,
+    /// Of that part of the colors that is light which met one surface at most, or nothing if that is not known apart.
+    pub direct: Vec<[i128; 3]>,
     /// Of the squares of their luminances, in steps of 2⁻⁵⁰: what chance does is estimated by them.
     pub squares: Vec<i128>,
 }
@@ -47,6 +49,7 @@ pub(crate) struct PixelSums {
     pub(crate) taken: u32,
     counts: [u32; 2],
     color: [i128; 3],
+    direct: [i128; 3],
     square: i128,
 }
 
@@ -81,14 +84,16 @@ impl PixelSums {
     ///
     /// # Errors
     /// The sample is not finite. It counts as taken, and nothing else.
-    pub(crate) fn add(&mut self, color: Rgb, is_negative: bool) -> Result<(), NotFinite> {
+    pub(crate) fn add(&mut self, color: Rgb, direct: Rgb, is_negative: bool) -> Result<(), NotFinite> {
         self.taken += 1;
-        if !color.is_finite() {
+        if !(color.is_finite() && direct.is_finite()) {
             return Err(NotFinite);
         }
-        let sign = if is_negative { -1 } else { 1 };
-        for (sum, component) in self.color.iter_mut().zip(color.to_array()) {
-            *sum += i128::from(sign) * fixed(f64::from(component), COLOR);
+        let sign = if is_negative { -1.0 } else { 1.0 };
+        for (sums, color) in [(&mut self.color, color), (&mut self.direct, direct)] {
+            for (sum, component) in sums.iter_mut().zip(color.to_array()) {
+                *sum += fixed(sign * f64::from(component), COLOR);
+            }
         }
         let luminance = f64::from(color.luminance());
         self.square += fixed(luminance * luminance, SQUARE);
@@ -103,26 +108,28 @@ pub(crate) struct NotFinite;
 
 impl Sums {
     /// None as yet, of the pixels of a part.
-    pub(crate) fn new(part: Part) -> Sums {
+    pub(crate) fn new(part: Part, direct: bool) -> Sums {
         let length = part.region.pixels() as usize;
         Sums {
             parts: vec![part],
             taken: vec![0; length],
             counts: vec![[0; 2]; length],
             colors: vec![[0; 3]; length],
+            direct: if direct { vec![[0; 3]; length] } else { Vec::new() },
             squares: vec![0; length],
         }
     }
 
     /// True if they are those of a film of this region, as far as can be told.
     pub(super) fn fit(&self, region: Region, is_finished: bool) -> bool {
-        let Sums { parts, taken, counts, colors, squares } = self;
+        let Sums { parts, taken, counts, colors, direct, squares } = self;
         let length = region.pixels();
         let all_there = [taken.len(), counts.len(), colors.len(), squares.len()].iter().all(|&l| l as u64 == length);
         let counted =
             taken.iter().zip(counts).all(|(taken, [a, b])| a.checked_add(*b).is_some_and(|sum| sum <= *taken));
         let is_begun = |part: &Part| part.region == region && taken.iter().all(|&taken| taken <= part.samples.count());
         all_there
+            && (direct.is_empty() || direct.len() as u64 == length)
             && counted
             && parts_fit(parts, region)
             && (is_finished || matches!(&parts[..], [part] if is_begun(part)))
@@ -154,15 +161,36 @@ impl Sums {
         for (count, more) in self.counts[pixel].iter_mut().zip(more.counts) {
             *count = count.saturating_add(more);
         }
-        for (sum, more) in self.colors[pixel].iter_mut().zip(more.color) {
+        let direct = self.direct.get_mut(pixel).into_iter().flatten().zip(more.direct);
+        for (sum, more) in self.colors[pixel].iter_mut().zip(more.color).chain(direct) {
             *sum = sum.wrapping_add(more);
         }
         self.squares[pixel] = self.squares[pixel].wrapping_add(more.square);
     }
 
+    /// Those of a pixel.
+    pub(super) fn of(&self, pixel: usize) -> PixelSums {
+        PixelSums {
+            taken: self.taken[pixel],
+            counts: self.counts[pixel],
+            color: self.colors[pixel],
+            direct: self.direct.get(pixel).copied().unwrap_or_default(),
+            square: self.squares[pixel],
+        }
+    }
+
     /// The color of a pixel, as far as it is known; black if nothing is.
     pub fn mean(&self, pixel: usize) -> Rgb {
-        let [r, g, b] = self.colors[pixel].map(|sum| sum as f64 / COLOR / self.divisor(pixel));
+        self.mean_of(&self.colors[pixel], pixel)
+    }
+
+    /// What of it is light that met one surface at most; `None` if that is not known apart.
+    pub fn direct_mean(&self, pixel: usize) -> Option<Rgb> {
+        self.direct.get(pixel).map(|direct| self.mean_of(direct, pixel))
+    }
+
+    fn mean_of(&self, sum: &[i128; 3], pixel: usize) -> Rgb {
+        let [r, g, b] = sum.map(|sum| sum as f64 / COLOR / self.divisor(pixel));
         Rgb::new(r as f32, g as f32, b as f32)
     }
 
@@ -190,7 +218,7 @@ impl Sums {
 }
 
 /// More parts than a film can be of.
-const MOST_PARTS: usize = 4096;
+pub(super) const MOST_PARTS: usize = 4096;
 
 /// True if parts can be those of a film of this region: sorted, and none overlaps another.
 fn parts_fit(parts: &[Part], region: Region) -> bool {
@@ -206,7 +234,7 @@ fn parts_fit(parts: &[Part], region: Region) -> bool {
 
 impl Part {
     /// By samples, then row by row.
-    fn order(&self) -> (SampleRange, u32, u32) {
+    pub(super) fn order(&self) -> (SampleRange, u32, u32) {
         (self.samples, self.region.y, self.region.x)
     }
 
@@ -223,10 +251,10 @@ mod tests {
 
     fn sums_of(samples: &[(Rgb, bool)]) -> Sums {
         let region = Region { x: 0, y: 0, width: 1, height: 1 };
-        let mut sums = Sums::new(Part { region, samples: SampleRange { start: 0, end: 100 } });
+        let mut sums = Sums::new(Part { region, samples: SampleRange { start: 0, end: 100 } }, true);
         for &(color, is_negative) in samples {
             let mut pixel = PixelSums::default();
-            let _ = pixel.add(color, is_negative);
+            let _ = pixel.add(color, color * 0.5, is_negative);
             sums.add(0, &pixel);
         }
         sums
@@ -270,6 +298,7 @@ mod tests {
         let color = Rgb::new(0.1, 0.7, 123.0);
         let samples: Vec<(Rgb, bool)> = (0..40).map(|n| (color, n % 9 == 0)).collect();
         assert_eq!(sums_of(&samples).mean(0), color);
+        assert_eq!(sums_of(&samples).direct_mean(0), Some(color * 0.5));
         let with_bad = [&samples[..], &[(Rgb::gray(f32::NAN), false), (Rgb::gray(f32::INFINITY), true)]].concat();
         let sums = sums_of(&with_bad);
         assert_eq!((sums.mean(0), sums.taken[0]), (color, 42));

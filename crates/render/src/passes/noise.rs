@@ -4,7 +4,7 @@
 //! Cells begin at the picture's corner and know nothing of each other, so that parts of a picture decide as the whole does.
 
 use crate::compile::CompiledScene;
-use crate::film::{Region, Sums};
+use crate::film::{Film, Region, Sums};
 use durer_math::functions::pow;
 
 /// Edge of a cell, in pixels.
@@ -15,6 +15,20 @@ const LEAST_SAMPLES: u32 = 16;
 
 /// What is added to brightness: darker differences are not seen.
 const DARK: f64 = 1e-3;
+
+/// What light is multiplied by.
+fn factor(exposure: f32) -> f64 {
+    f64::from(pow(2.0, exposure))
+}
+
+impl Film {
+    /// The noise of all of its pixels, as goals for noise measure it, for a picture with so many stops of exposure: the
+    /// standard error over the root of the brightness. `None` if it has no samples, or too few to tell.
+    pub fn noise(&self, exposure: f32) -> Option<f64> {
+        let sums = self.sums().filter(|sums| sums.least_and_most().0 > 1)?;
+        Some(Noise { exposure: factor(exposure), target: 0.0 }.of(sums, 0..sums.taken.len()))
+    }
+}
 
 /// A goal for noise.
 #[derive(Clone, Copy, Debug)]
@@ -27,8 +41,7 @@ pub(crate) struct Noise {
 
 impl Noise {
     pub(crate) fn new(scene: &CompiledScene, target: f32) -> Noise {
-        let exposure = f64::from(pow(2.0, scene.picture.exposure));
-        Noise { exposure, target: f64::from(target) }
+        Noise { exposure: factor(scene.picture.exposure), target: f64::from(target) }
     }
 
     /// The square of the noise of a pixel: the standard error of its luminance, over the root of that, as screens and eyes

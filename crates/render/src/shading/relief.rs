@@ -87,3 +87,65 @@ fn step(textured: &Textured<'_>) -> f64 {
     let size = if size.is_finite() { size } else { textured.surface.point.length().max(1.0) };
     (size * STEP).max(textured.surface.offset * 1e4)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compile::compile;
+    use durer_geometry::Ray;
+    use durer_math::Rgb;
+    use durer_scene::{Material, MaterialId, Object, ObjectKind, Paint, Scene, Shape, Texture, TextureId};
+
+    /// The normal that is seen at a point of the square from (-1, -1) to (1, 1), which faces up, from above or below.
+    fn seen(relief: Relief, textures: Vec<Texture>, from_above: bool) -> DVec3 {
+        let square = Shape::Rectangle { corner: DVec3::new(-1.0, 0.0, 1.0), edges: [DVec3::X * 2.0, DVec3::Z * -2.0] };
+        let scene = Scene {
+            materials: vec![Material { relief: Some(relief), ..Material::default() }],
+            textures,
+            objects: vec![Object { material: Some(MaterialId(0)), ..Object::new(ObjectKind::Shape(square)) }],
+            ..Scene::default()
+        };
+        let scene = compile(&scene.check().unwrap());
+        let side = if from_above { 1.0 } else { -1.0 };
+        let ray = Ray { origin: DVec3::new(0.2, side, 0.3), direction: DVec3::new(0.0, -side, 0.0) };
+        let hit = scene.world.closest_hit(&ray, f64::INFINITY, u32::MAX, None).unwrap();
+        Shading::at(&scene, &ray, &hit).normal()
+    }
+
+    fn map(color: [f32; 3], strength: f32) -> Relief {
+        Relief::NormalMap(NormalMap { texture: Paint::Color(Rgb::from(color)), strength })
+    }
+
+    /// On the square u runs along x and v towards -z.
+    #[test]
+    fn maps_turn_normals_along_u_and_v() {
+        let near = |found: DVec3, expected: DVec3| {
+            assert!((found - expected.normalize()).length() < 1e-6, "{found} is not {}", expected.normalize());
+        };
+        near(seen(map([0.5, 0.5, 1.0], 1.0), Vec::new(), true), DVec3::Y);
+        near(seen(map([0.8, 0.5, 0.9], 1.0), Vec::new(), true), DVec3::new(0.6, 0.8, 0.0));
+        near(seen(map([0.5, 0.8, 0.9], 1.0), Vec::new(), true), DVec3::new(0.0, 0.8, -0.6));
+        near(seen(map([0.8, 0.5, 0.9], 0.5), Vec::new(), true), DVec3::new(0.3, 0.8, 0.0));
+        near(seen(map([0.8, 0.5, 0.9], 1.0), Vec::new(), false), DVec3::new(-0.6, -0.8, 0.0));
+    }
+
+    /// A height that grows from 0 to `size` between x = 0 and x = 1 is a slope of `size`.
+    #[test]
+    fn heights_slope() {
+        let [black, white] = [0.0, 1.0].map(|gray| Paint::Color(Rgb::gray(gray)));
+        let pattern = durer_scene::Pattern::Gradient {
+            colors: vec![black, white],
+            axis: DVec3::X,
+            length: 1.0,
+            wrap: durer_scene::Wrap::Clamp,
+            space: durer_scene::Space::Object,
+        };
+        let texture = Texture { name: None, pattern, transform: Default::default() };
+        let bump = Relief::Bump(Bump { height: Paint::Texture(TextureId(0)), size: 0.75 });
+        let found = seen(bump, vec![texture.clone()], true);
+        assert!((found - DVec3::new(-0.6, 0.8, 0.0)).length() < 1e-3, "{found}");
+        // From below hills are hollows.
+        let found = seen(bump, vec![texture], false);
+        assert!((found - DVec3::new(0.6, -0.8, 0.0)).length() < 1e-3, "{found}");
+    }
+}

@@ -187,7 +187,9 @@ fn sampling(c: &mut Checker<'_>, settings: RenderSettings) {
         | Integrator::Depth
         | Integrator::Uv => {}
     });
-    c.within("samples", settings.samples.into(), 1.0, 1e6);
+    if let Some(samples) = settings.samples {
+        c.within("samples", samples.into(), 1.0, 1e6);
+    }
     if let Some(noise) = settings.noise {
         c.within("noise", noise.into(), 1e-4, 1.0);
     }

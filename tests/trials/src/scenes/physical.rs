@@ -35,7 +35,7 @@ impl Maker<'_, '_> {
             camera.lens = Some(self.lens());
         }
         scene.render.integrator = self.integrator();
-        scene.render.samples = 1 + self.dice.below(3) as u32;
+        scene.render.samples = Some(1 + self.dice.below(3) as u32);
         scene.render.light_samples = 1 + self.dice.below(3) as u32;
         scene.render.seed = self.dice.below(3) as u32;
     }

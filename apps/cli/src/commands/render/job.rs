@@ -12,8 +12,8 @@ use crate::progress::{Bar, Phase, Reached, Show};
 use crate::{output, provenance, target};
 use durer::imaging::{EncodeOptions, Image, Layers};
 use durer::{
-    Beside, CheckedScene, Checkpoint, Film, FilmLayer, Origin, PictureFile, Progress, Region, RenderError,
-    RenderOptions, SceneHash, Sources, film_layers, read_checkpoint, temporary_beside,
+    CheckedScene, Checkpoint, Film, FilmLayer, Origin, PictureFile, Progress, Region, RenderError, RenderOptions,
+    SceneHash, SeenFirst, Sources, WriteError, film_layers, read_checkpoint, seen_first, temporary_beside,
 };
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -32,11 +32,17 @@ pub(crate) struct Job<'a> {
 /// What there is besides the film when all rays are traced.
 struct Outcome<'a> {
     file: PictureFile,
-    options: EncodeOptions,
-    /// `None` for the picture alone.
-    layers: Option<Layers>,
+    what: What<'a>,
     saver: Option<&'a Saver<'a>>,
     show: Show,
+}
+
+/// What is written.
+enum What<'a> {
+    /// A picture, alone or with layers.
+    Picture(EncodeOptions, Option<Layers>),
+    /// The film itself, as checkpoints are.
+    Film(&'a Saver<'a>),
 }
 
 impl Job<'_> {
@@ -48,14 +54,26 @@ impl Job<'_> {
         if arguments.saving.checkpoint.as_ref().is_some_and(|checkpoint| same_place(checkpoint, &path)) {
             return Err(Failure::usage("--checkpoint: the checkpoint cannot be the same file as the picture"));
         }
-        let format = target::format_of(&path)?;
-        let mut options = arguments.file.encode_options(format)?;
+        let format = if target::is_film(&path) { None } else { Some(target::format_of(&path)?) };
+        let mut options = match format {
+            Some(format) => arguments.file.encode_options(format)?,
+            None => arguments.file.of_no_picture().map(|()| EncodeOptions::default())?,
+        };
         let (loaded, load) = timed(|| arguments.scene.load_with_sources(show));
         let (scene, sources) = loaded?;
         let fingerprint = durer::scene_fingerprint(scene.scene(), &sources);
         let scene = arguments.overrides.apply(scene)?;
         options.metadata = provenance::of_render(fingerprint, scene.scene(), arguments.crop);
-        let layers = arguments.layers.of_file(format, &scene.scene().render.integrator)?;
+        let layers = match format {
+            Some(format) => arguments.layers.of_file(format, &scene.scene().render.integrator)?,
+            None => None,
+        };
+        if !scene.scene().render.integrator.takes_samples() && (format.is_none() || arguments.sample_range.is_some()) {
+            let integrator = scene.scene().render.integrator.word();
+            return Err(Failure::usage(format!(
+                "`{integrator}` takes no samples, of which there could be parts or a film; `path` does"
+            )));
+        }
         let picture = scene.scene().picture;
         (options.transfer, options.exposure, options.tone_mapping) =
             (picture.transfer, picture.exposure, picture.tone_mapping);
@@ -71,7 +89,10 @@ impl Job<'_> {
         interrupt.watch();
         let mut file = PictureFile::create(&path)?;
         interrupt.removes(file.temporary());
-        file.reserve(most_bytes(&options, layers.as_deref(), (region.width, region.height)))?;
+        file.reserve(match format {
+            Some(_) => most_bytes(&options, layers.as_deref(), (region.width, region.height)),
+            None => checkpoint_bytes_a_pixel(&scene) * region.pixels(),
+        })?;
         if let Some(saver) = &saver {
             interrupt.removes(&temporary_beside(saver.path()));
             if is_new && saving_from_the_start(arguments) {
@@ -81,12 +102,18 @@ impl Job<'_> {
         }
         let rays_before = film.as_ref().map_or(0, |film| film.rays().total());
         let wanted = layers.as_deref().unwrap_or_default();
-        let (film, beside, [build, render]) =
+        let (film, seen, [build, render]) =
             self.trace(&scene, (film, region, wanted), &interrupt, saver.as_ref(), show)?;
-        let report = Report::new(arguments.scene.path.clone(), path, format, &film).after(rays_before);
+        let report =
+            Report::new(arguments.scene.path.clone(), path, format, &film, picture.exposure).after(rays_before);
         let report = report.with_seconds(Seconds { load, build, render, write: 0.0 }).stopped_by(interrupt.reason());
-        let layers = layers.map(|layers| film_layers(&film, &beside, &layers, options.exr_samples));
-        self.finish(&film, Outcome { file, options, layers, saver: saver.as_ref(), show }, report)
+        let layers = layers.map(|layers| film_layers(&film, seen.as_ref(), &layers, options.exr_samples));
+        let what = match (format, &saver) {
+            (Some(_), _) => What::Picture(options, layers),
+            (None, Some(saver)) => What::Film(saver),
+            (None, None) => return Err(Failure::usage("films need names of files that are UTF-8")),
+        };
+        self.finish(&film, Outcome { file, what, saver: saver.as_ref(), show }, report)
     }
 
     /// The part that is rendered, if it lies within the picture.
@@ -144,7 +171,7 @@ impl Job<'_> {
         }
     }
 
-    /// The film, what there is to know beside it for the layers that are wanted, and the seconds for building and for tracing.
+    /// The film, what is seen first if layers want it, and the seconds for building and for tracing.
     fn trace(
         &self,
         scene: &CheckedScene,
@@ -152,7 +179,7 @@ impl Job<'_> {
         interrupt: &Interrupt,
         saver: Option<&Saver<'_>>,
         show: Show,
-    ) -> Result<(Film, Beside, [f64; 2]), Failure> {
+    ) -> Result<(Film, Option<SeenFirst>, [f64; 2]), Failure> {
         durer::with_threads(self.manner.threads.map(usize::from), || {
             let simd = self.arguments.simd.unwrap_or_default();
             let (compiled, build) = timed(|| self.arguments.scene.compile_for(scene, simd, show));
@@ -160,7 +187,12 @@ impl Job<'_> {
             let already = film.as_ref().map_or(0, Film::done);
             let bar = Bar::new(interrupt.stop_flag(), already, show);
             let watch = Watch { bar, saver, total: AtomicU64::new(region.pixels()) };
-            let options = RenderOptions { threads: None, region: Some(region), samples: self.arguments.sample_range };
+            let options = RenderOptions {
+                threads: None,
+                region: Some(region),
+                samples: self.arguments.sample_range,
+                direct: layers.iter().any(|layer| layer.is_of_paths()),
+            };
             let (film, render) = timed(|| match film {
                 Some(film) => durer::render_on(&compiled, film, &options, &watch),
                 None => durer::render(&compiled, &options, &watch),
@@ -170,15 +202,17 @@ impl Job<'_> {
                 saver.settle();
             }
             let film = film?;
-            let beside = Beside::find(&compiled, &film, layers, None, &Stop(interrupt.stop_flag()))?;
-            Ok((film, beside, [build, render]))
+            let wants_seen = layers.iter().any(|layer| layer.is_seen_first());
+            let options = RenderOptions { region: Some(film.region()), ..RenderOptions::default() };
+            let find_seen = || seen_first(&compiled, &options, &Stop(interrupt.stop_flag()));
+            let seen = wants_seen.then(find_seen).transpose()?;
+            Ok((film, seen, [build, render]))
         })?
     }
 
     /// Writes what there is, and says so.
     fn finish(&self, film: &Film, outcome: Outcome<'_>, mut report: Report) -> Result<Exit, Failure> {
-        let Outcome { file, mut options, layers, saver, show } = outcome;
-        options.metadata.extend(film.sums().map(provenance::of_samples));
+        let Outcome { file, what, saver, show } = outcome;
         let (finished, total) = (film.done(), (film.done() as f64 / share_done(film).max(1e-9)).round() as u64);
         let reached = |remaining| Some(Reached { finished, total, remaining });
         let (complete, interrupted) = (reached(Some(0.0)), reached(None));
@@ -191,14 +225,9 @@ impl Job<'_> {
             true => file,
             false => file.with_name(&report.name_of_part()),
         };
-        let Region { width, height, .. } = film.region();
-        let image = Image { width, height, pixels: film.pixels().to_vec() };
         let (bytes, write) = timed(|| {
             let _phase = Phase::begin("writing", &self.arguments.output_path().to_string_lossy(), show);
-            match layers {
-                Some(layers) => file.write_layers(layers, &options),
-                None => file.write(&image, &options),
-            }
+            write(file, film, what)
         });
         let kept = match (saver, bytes.is_ok() && report.is_complete()) {
             (Some(saver), false) => self.keep(saver, film, bytes.is_err()),
@@ -244,6 +273,21 @@ impl Job<'_> {
                 read_checkpoint(saver.path()).is_ok().then(|| saver.path().to_owned())
             }
         }
+    }
+}
+
+/// Writes the film, or what is made of it; gives the number of bytes.
+fn write(file: PictureFile, film: &Film, what: What<'_>) -> Result<usize, WriteError> {
+    match what {
+        What::Picture(mut options, layers) => {
+            options.metadata.extend(film.sums().map(provenance::of_samples));
+            let Region { width, height, .. } = film.region();
+            match layers {
+                Some(layers) => file.write_layers(layers, &options),
+                None => file.write(&Image { width, height, pixels: film.pixels().to_vec() }, &options),
+            }
+        }
+        What::Film(saver) => file.write_bytes(&saver.bytes(film)),
     }
 }
 
@@ -310,7 +354,9 @@ fn fitting(checkpoint: Checkpoint, saver: &Saver<'_>, region: Region) -> Result<
     if checkpoint.film.region() != region {
         return Err(Failure::file(format!("cannot go on with {path}: it is not of the part that it says")));
     }
-    saver.found(&checkpoint.film);
+    if !saver.is_off() {
+        saver.found(&checkpoint.film);
+    }
     Ok(checkpoint.film)
 }
 

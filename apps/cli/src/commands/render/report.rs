@@ -14,7 +14,8 @@ use std::path::PathBuf;
 pub(super) struct Report {
     scene: PathBuf,
     path: PathBuf,
-    format: FileFormat,
+    /// `None` for a film.
+    format: Option<FileFormat>,
     region: Region,
     finished: u64,
     rays: RayCounts,
@@ -37,21 +38,28 @@ struct Samples {
     mean: f64,
     /// As many as a pixel was to have, at most.
     wanted: u32,
-    /// The root of the mean variance of the pixels' luminances.
-    noise: f64,
+    /// As goals for noise measure it.
+    noise: Option<f64>,
 }
 
 impl Samples {
-    fn of(sums: &Sums) -> Samples {
+    /// For the line at the end.
+    fn text(&self) -> String {
+        let count =
+            if self.least == self.most { self.least.to_string() } else { format!("{} to {}", self.least, self.most) };
+        let noise = self.noise.map_or(String::new(), |noise| format!(", noise {}", short((noise * 1e4).round() / 1e4)));
+        format!(", {count} samples a pixel{noise}")
+    }
+
+    fn of(sums: &Sums, noise: Option<f64>) -> Samples {
         let (least, most) = sums.least_and_most();
         let pixels = sums.taken.len();
-        let known: Vec<f64> = (0..pixels).map(|pixel| sums.variance(pixel)).filter(|v| v.is_finite()).collect();
         Samples {
             least,
             most,
             mean: sums.samples() as f64 / pixels as f64,
             wanted: sums.parts.iter().map(|part| part.samples.count()).max().unwrap_or(0),
-            noise: (known.iter().sum::<f64>() / known.len().max(1) as f64).sqrt(),
+            noise,
         }
     }
 }
@@ -67,7 +75,7 @@ pub(super) struct Seconds {
 
 impl Report {
     /// What the film says.
-    pub(super) fn new(scene: PathBuf, path: PathBuf, format: FileFormat, film: &Film) -> Report {
+    pub(super) fn new(scene: PathBuf, path: PathBuf, format: Option<FileFormat>, film: &Film, exposure: f32) -> Report {
         Report {
             scene,
             path,
@@ -78,7 +86,7 @@ impl Report {
             rays_before: 0,
             bad_samples: film.bad_samples(),
             first_bad_sample: film.first_bad_sample(),
-            samples: film.sums().map(Samples::of),
+            samples: film.sums().map(|sums| Samples::of(sums, film.noise(exposure))),
             bytes: 0,
             seconds: Seconds::default(),
             stopped_by: "interrupted",
@@ -147,8 +155,9 @@ impl Report {
             0 => String::new(),
             count => format!(" ({} more cut off as too deep)", thousands(count)),
         };
+        let samples = self.samples.map_or(String::new(), |samples| samples.text());
         output::note(&format!(
-            "{}: {width} × {height} pixels, {}; {} eye ({} a pixel), {} reflected, {} transmitted, {} shadow rays{cut_off}, {:.2} Mrays/s; \
+            "{}: {width} × {height} pixels, {}{samples}; {} eye ({} a pixel), {} reflected, {} transmitted, {} shadow rays{cut_off}, {:.2} Mrays/s; \
              load {load:.3} s, build {build:.3} s, render {render:.3} s",
             self.written_path().display(),
             bytes(self.bytes as u64),
@@ -220,7 +229,7 @@ impl Report {
         output::print_json(&json!({
             "scene": self.scene.to_string_lossy(),
             "output": self.written_path().to_string_lossy(),
-            "format": self.format.name().to_lowercase(),
+            "format": self.format.map_or("film".to_owned(), |format| format.name().to_lowercase()),
             "bytes": self.bytes,
             "region": { "x": x, "y": y, "width": width, "height": height },
             "pixels": self.pixels(),

@@ -103,7 +103,7 @@ impl<'a> Saver<'a> {
         turn.is_busy = true;
         drop(turn);
         let start = Instant::now();
-        let bytes = encode_checkpoint(&self.origin, self.hash(), film);
+        let bytes = self.bytes(film);
         let mut writer = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
         let writer = writer.get_or_insert_with(|| self.start_writer());
         // The writer waits for this; it ends only after the sender is gone.
@@ -129,6 +129,16 @@ impl<'a> Saver<'a> {
         Writer { sender, thread }
     }
 
+    /// True if there are to be no checkpoints.
+    pub(super) fn is_off(&self) -> bool {
+        lock(&self.turn).when == When::Never
+    }
+
+    /// The bytes of a file with this film.
+    pub(super) fn bytes(&self, film: &Film) -> Vec<u8> {
+        encode_checkpoint(&self.origin, self.hash(), film)
+    }
+
     /// Waits until nothing is being written any more.
     pub(super) fn settle(&self) {
         if let Some(Writer { sender, thread }) = self.writer.lock().unwrap_or_else(PoisonError::into_inner).take() {
@@ -147,7 +157,7 @@ impl<'a> Saver<'a> {
     /// Writes a last checkpoint, now, unless there is one with more on it.
     pub(super) fn save(&self, film: &Film) -> io::Result<()> {
         if film.done() > lock(&self.turn).at_least {
-            write_whole(&self.path, &encode_checkpoint(&self.origin, self.hash(), film))?;
+            write_whole(&self.path, &self.bytes(film))?;
         }
         Ok(())
     }
