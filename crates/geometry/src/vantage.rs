@@ -5,7 +5,10 @@
 //! tested against these only, mostly none. After Haines and Greenberg, "The Light Buffer", IEEE CG&A 6(9), 1986.
 
 use crate::Bounds;
+use crate::packet::LANES;
+use crate::simd::lanes::Lanes;
 use durer_math::DVec3;
+use fearless_simd::{Simd, f64x8, prelude::*};
 
 /// Cells along an edge of the cube: a cell is about two degrees wide.
 const CELLS: usize = 48;
@@ -102,7 +105,19 @@ impl Vantage {
     /// many to list.
     #[inline(always)]
     pub(crate) fn candidates(&self, direction: DVec3) -> Option<&[u32]> {
-        let Cell { start, length } = self.cells[cell_of(direction)];
+        self.listed(cell_of(direction))
+    }
+
+    /// The point.
+    #[inline(always)]
+    pub(crate) fn point(&self) -> DVec3 {
+        self.point
+    }
+
+    /// The list of a cell, as [`cells_of`] numbers them.
+    #[inline(always)]
+    pub(crate) fn listed(&self, cell: usize) -> Option<&[u32]> {
+        let Cell { start, length } = self.cells[cell];
         if length > LONGEST_LIST { None } else { self.ids.get(start as usize..(start + length) as usize) }
     }
 }
@@ -198,6 +213,33 @@ fn cell_of(d: DVec3) -> usize {
     (face * CELLS + index(t)) * CELLS + index(s)
 }
 
+/// The cells that eight directions pass through.
+#[inline(always)]
+pub(crate) fn cells_of<S: Simd>(simd: S, d: Lanes<S>) -> [u32; LANES] {
+    let number = |x: f64| f64x8::splat(simd, x);
+    let (ax, ay, az) = (d.x.abs(), d.y.abs(), d.z.abs());
+    let along_z = az.simd_ge(ax) & az.simd_ge(ay);
+    let along_y = ay.simd_ge(ax);
+    let choose = |x: f64x8<S>, y: f64x8<S>, z: f64x8<S>| along_z.select(z, along_y.select(y, x));
+    let depth = choose(d.x, d.y, d.z);
+    let (s, t) = (choose(d.y, d.x, d.x), choose(d.z, d.z, d.y));
+    let scale = number((CELLS / 2) as f64) / depth.abs();
+    // Adding this rounds to a whole number; a sum of whole numbers and this then has them in its lowest bits.
+    const ROUND: f64 = (3_u64 << 51) as f64;
+    let index = |along: f64x8<S>| {
+        let (least, last) = (number(0.0), number((CELLS - 1) as f64));
+        let cell = along * scale + number((CELLS / 2) as f64 - 0.5);
+        let cell = cell.simd_gt(least).select(cell, least);
+        let cell = cell.simd_lt(last).select(cell, last);
+        (cell + number(ROUND)) - number(ROUND)
+    };
+    let positive = depth.simd_gt(number(0.0)).select(number(1.0), number(0.0));
+    let face = choose(number(0.0), number(2.0), number(4.0)) + positive;
+    let cells = (face * number(CELLS as f64) + index(t)) * number(CELLS as f64) + index(s);
+    let bits: [f64; LANES] = (cells + number(ROUND)).into();
+    bits.map(|cell| cell.to_bits() as u32 & 0xffff)
+}
+
 /// Calls `visit` for every cell through which a box may be seen, by interval arithmetic on its projection.
 fn for_each_cell(point: DVec3, bounds: &Bounds, mut visit: impl FnMut(usize)) {
     let (low, high) = ((bounds.min - point).to_array(), (bounds.max - point).to_array());
@@ -261,6 +303,31 @@ mod tests {
                 let inside = bounds.min + bounds.size() * DVec3::new(random(0., 1.), random(0., 1.), random(0., 1.));
                 assert_eq!(vantage.candidates((inside - point).normalize()), Some(&[7][..]), "{point} {bounds:?}");
             }
+        }
+    }
+
+    /// But for directions so near an edge of a cell that single precision decides otherwise.
+    #[test]
+    fn eight_directions_pass_through_the_cells_of_each() {
+        let mut random = random_numbers(3);
+        let mut same = 0;
+        for level in crate::SimdLevel::available() {
+            for case in 0..200 {
+                let mut direction = || DVec3::new(random(-1., 1.), random(-1., 1.), random(-1., 1.));
+                let directions: [DVec3; LANES] = match case {
+                    0 => [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z, DVec3::ZERO, DVec3::ONE],
+                    _ => std::array::from_fn(|_| direction()),
+                };
+                let columns = [0, 1, 2].map(|axis| directions.map(|direction| direction[axis]));
+                let cells = fearless_simd::dispatch!(level.level(), simd => cells_of(simd, Lanes::load(simd, &columns)));
+                for (cell, direction) in cells.into_iter().zip(directions) {
+                    assert!((cell as usize) < CELL_COUNT);
+                    same += usize::from(cell as usize == cell_of(direction));
+                }
+            }
+            let all = 200 * LANES;
+            assert!(same >= all - 2, "{same} of {all}");
+            same = 0;
         }
     }
 

@@ -2,6 +2,7 @@
 //!
 //! Those in what is filled with a medium are left to shading, which knows how to leave a medium.
 
+use crate::ahead::SeenAhead;
 use crate::compile::CompiledScene;
 use crate::observer::Observer;
 use crate::shading::opacity_at;
@@ -26,6 +27,19 @@ pub(crate) enum Known<'a> {
     Vantage(&'a Vantage),
     /// What it hits.
     Hit(Option<Hit>),
+    /// What it hits, and how that lies to the lights.
+    Seen(SeenAhead<'a>),
+}
+
+impl<'a> Known<'a> {
+    /// What was seen ahead.
+    #[inline]
+    pub(crate) fn seen(self) -> Option<SeenAhead<'a>> {
+        match self {
+            Known::Seen(seen) => Some(seen),
+            Known::Nothing | Known::Vantage(_) | Known::Hit(_) => None,
+        }
+    }
 }
 
 /// What a ray meets first but holes.
@@ -33,6 +47,7 @@ pub(crate) enum Known<'a> {
 pub(crate) fn meet(scene: &CompiledScene, ray: &Ray, known: Known<'_>, observer: &mut impl Observer) -> Met {
     let hit = match known {
         Known::Hit(hit) => hit,
+        Known::Seen(seen) => seen.hit(),
         Known::Vantage(vantage) => scene.world.closest_hit(ray, f64::INFINITY, u32::MAX, Some(vantage)),
         Known::Nothing => scene.world.closest_hit(ray, f64::INFINITY, u32::MAX, None),
     };

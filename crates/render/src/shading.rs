@@ -32,7 +32,12 @@ impl<'a> Shading<'a> {
     /// Looks up all about a hit of `ray`.
     #[inline]
     pub(crate) fn at(scene: &'a CompiledScene, ray: &Ray, hit: &Hit) -> Shading<'a> {
-        let surface = scene.world.surface(ray, hit);
+        Shading::of_surface(scene, ray, hit, scene.world.surface(ray, hit))
+    }
+
+    /// The same where the surface is known.
+    #[inline]
+    pub(crate) fn of_surface(scene: &'a CompiledScene, ray: &Ray, hit: &Hit, surface: Surface) -> Shading<'a> {
         let object = &scene.objects[hit.primitive as usize];
         if object.looks.has_details() {
             return Shading::in_detail(scene, ray, hit, &surface);
@@ -77,6 +82,12 @@ impl<'a> Shading<'a> {
             from_outside,
             bounds_medium: object.looks.is_medium,
         }
+    }
+
+    /// True if shading goes by another normal than the surface's.
+    #[inline]
+    pub(crate) fn is_smooth(&self) -> bool {
+        self.smooth.is_some()
     }
 
     /// The unit normal by which light falls and is reflected and refracted, on the side that the ray came from.

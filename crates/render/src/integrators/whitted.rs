@@ -5,6 +5,7 @@
 //! their sum, in the order of the list, is the pixel to the last bit.
 
 use super::Integrator;
+use crate::ahead::SeenAhead;
 use crate::background::background;
 use crate::compile::CompiledScene;
 use crate::holes::{Known, meet};
@@ -14,7 +15,7 @@ use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Source, SurfaceSe
 use crate::sampler::Sampler;
 use crate::shading::{Shading, highlight};
 use crate::visibility::visibility;
-use durer_geometry::Ray;
+use durer_geometry::{Ray, Way};
 use durer_math::{DVec3, Rgb};
 
 /// The classic integrator.
@@ -62,13 +63,17 @@ impl<O: Observer> Path<'_, O> {
         match met.hit {
             None => self.add(Source::Background, weight * background(&self.scene.background, ray.direction)),
             Some(hit) => {
-                let shading = Shading::at(self.scene, &met.ray, &hit);
+                let seen = known.seen();
+                let shading = match &seen {
+                    Some(seen) => Shading::of_surface(self.scene, &met.ray, &hit, seen.surface()),
+                    None => Shading::at(self.scene, &met.ray, &hit),
+                };
                 let Shading { surface, color, opacity, from_outside, .. } = shading;
                 let (length, normal) = (met.length, shading.normal());
                 self.observer.surface(&SurfaceSeen { hit, length, surface, normal, color, opacity, from_outside });
                 let there = opacity.map_or(weight, |opacity| weight * opacity);
                 if opacity.is_none_or(|opacity| !opacity.is_black()) {
-                    self.shade(&shading, there);
+                    self.shade(&shading, there, seen.filter(|_| !shading.is_smooth()));
                     self.go_on(&shading, depth, there);
                 }
                 if let Some(opacity) = opacity {
@@ -95,7 +100,7 @@ impl<O: Observer> Path<'_, O> {
 
     /// What the surface gives off, and ambient and direct light that it gives back.
     #[inline(always)]
-    fn shade(&mut self, shading: &Shading<'_>, weight: Rgb) {
+    fn shade(&mut self, shading: &Shading<'_>, weight: Rgb, seen: Option<SeenAhead<'_>>) {
         let material = shading.material;
         if !material.emission.is_black() {
             self.add(Source::Emission, weight * material.emission);
@@ -109,23 +114,32 @@ impl<O: Observer> Path<'_, O> {
         // Lit points lie off the surface like the origins of all rays, so that shadow rays end exactly in the light.
         let point = shading.origin_back();
         for (index, light) in self.scene.lights.iter().enumerate() {
-            let Some(arriving) = light.arriving(point) else {
+            let sight = seen.and_then(|seen| seen.sight(index));
+            let arriving = match &sight {
+                Some(sight) => light.arriving_along(sight.direction, sight.distance, sight.squared_distance),
+                None => light.arriving(point),
+            };
+            let Some(arriving) = arriving else {
                 let (cosine, visibility) = (0.0, Rgb::BLACK);
                 self.observer.light(&LightSeen { index, distance: None, cosine, visibility });
                 continue;
             };
-            let cosine = shading.cosine(arriving.direction);
+            let (cosine, way) = match &sight {
+                Some(sight) => (sight.cosine, sight.way),
+                None => (shading.cosine(arriving.direction), Way::Unknown),
+            };
             let mut visible = Rgb::BLACK;
             if cosine > 0.0 {
                 self.observer.shadow_ray();
-                let ray = Ray { origin: point, direction: arriving.direction };
-                visible = visibility(
-                    self.scene,
-                    &self.media,
-                    &ray,
-                    arriving.distance,
-                    self.scene.light_vantages[index].as_ref(),
-                );
+                visible = match way {
+                    Way::Open => Rgb::WHITE,
+                    Way::Shut => Rgb::BLACK,
+                    Way::Unknown => {
+                        let ray = Ray { origin: point, direction: arriving.direction };
+                        let vantage = self.scene.light_vantages[index].as_ref();
+                        visibility(self.scene, &self.media, &ray, arriving.distance, vantage)
+                    }
+                };
             }
             let distance = Some(arriving.distance);
             self.observer.light(&LightSeen { index, distance, cosine, visibility: visible });

@@ -1,0 +1,324 @@
+//! What eight rays from one point see, and how the points that they see lie to another point, found together.
+//!
+//! The rays of neighboring pixels mostly see the same walls, through the same cells of a [`Vantage`], and what they see is
+//! mostly seen through the same cells from each lamp. So eight rays look up one list, meet flat things by lanes, and what
+//! is not flat one by one. What each ray sees is the same, to the bit, as if it were alone.
+
+use crate::packet::{LANES, Packet};
+use crate::simd::lanes::{Columns, Lanes, lane_of, set_lane};
+use crate::vantage::{Vantage, cells_of};
+use crate::world::Best;
+use crate::{Crossing, Hit, Surface, World};
+use arrayvec::ArrayVec;
+use durer_math::DVec3;
+use fearless_simd::{Simd, dispatch, f64x8, prelude::*};
+
+/// What eight rays see.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub struct Seen {
+    t: [f64; LANES],
+    point: Columns,
+    normal: Columns,
+    offset: [f64; LANES],
+    /// The normal on the side that the ray came from.
+    face: Columns,
+    /// From where rays start on that side.
+    start: Columns,
+    primitive: [u32; LANES],
+    part: [u32; LANES],
+    /// Which of them see something, one bit each.
+    hit: u32,
+}
+
+/// How eight points lie to another one.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub struct Sights {
+    direction: Columns,
+    squared_distance: [f64; LANES],
+    distance: [f64; LANES],
+    cosine: [f64; LANES],
+    open: u32,
+    shut: u32,
+}
+
+/// How a point on a surface lies to another point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sight {
+    /// From where rays start on the seen side of the surface to the point; unit length.
+    pub direction: DVec3,
+    /// The square of the distance.
+    pub squared_distance: f64,
+    /// The distance.
+    pub distance: f64,
+    /// Between the normal on the seen side and the direction.
+    pub cosine: f64,
+    /// What lies between them.
+    pub way: Way,
+}
+
+/// What lies between two points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// Nothing.
+    Open,
+    /// Something that shuts it.
+    Shut,
+    /// Perhaps something.
+    Unknown,
+}
+
+/// The number of no primitive.
+const NOTHING: u32 = u32::MAX;
+
+/// A list that could not be used up by all lanes at once: a primitive, and the lanes that may meet it.
+type Curved = ArrayVec<(u32, u32), 96>;
+
+impl Default for Seen {
+    /// Nothing.
+    fn default() -> Seen {
+        Seen {
+            t: [f64::INFINITY; LANES],
+            point: Columns::default(),
+            normal: Columns::default(),
+            offset: [0.0; LANES],
+            face: Columns::default(),
+            start: Columns::default(),
+            primitive: [NOTHING; LANES],
+            part: [0; LANES],
+            hit: 0,
+        }
+    }
+}
+
+impl Default for Sights {
+    fn default() -> Sights {
+        Sights {
+            direction: Columns::default(),
+            squared_distance: [0.0; LANES],
+            distance: [0.0; LANES],
+            cosine: [0.0; LANES],
+            open: 0,
+            shut: 0,
+        }
+    }
+}
+
+impl Seen {
+    /// What a ray hits first.
+    #[inline]
+    pub fn hit(&self, lane: usize) -> Option<Hit> {
+        let crossing = Crossing { t: self.t[lane], part: self.part[lane] };
+        (self.hit >> lane & 1 == 1).then_some(Hit { crossing, primitive: self.primitive[lane] })
+    }
+
+    /// The surface there.
+    #[inline]
+    pub fn surface(&self, lane: usize) -> Surface {
+        Surface {
+            point: lane_of(&self.point, lane),
+            normal: lane_of(&self.normal, lane),
+            offset: self.offset[lane],
+        }
+    }
+}
+
+impl Sights {
+    /// How one of the points lies.
+    #[inline]
+    pub fn get(&self, lane: usize) -> Sight {
+        let way = match (self.open >> lane & 1, self.shut >> lane & 1) {
+            (1, _) => Way::Open,
+            (_, 1) => Way::Shut,
+            (_, _) => Way::Unknown,
+        };
+        Sight {
+            direction: lane_of(&self.direction, lane),
+            squared_distance: self.squared_distance[lane],
+            distance: self.distance[lane],
+            cosine: self.cosine[lane],
+            way,
+        }
+    }
+}
+
+/// Calls `visit` for each cell that some of the lanes are in, with these lanes.
+#[inline(always)]
+fn for_each_cell(cells: &[u32; LANES], lanes: u32, mut visit: impl FnMut(usize, u32)) {
+    let mut left = lanes;
+    while left != 0 {
+        let cell = cells[left.trailing_zeros() as usize % LANES];
+        let same = (0..LANES).fold(0, |same, lane| same | u32::from(cells[lane] == cell) << lane) & left;
+        left &= !same;
+        visit(cell as usize, same);
+    }
+}
+
+/// Which lanes are in a set.
+#[inline(always)]
+fn lanes_of(set: u32) -> impl Iterator<Item = usize> {
+    (0..LANES).filter(move |lane| set >> lane & 1 == 1)
+}
+
+impl World {
+    /// What the rays of a packet see, which all start at a vantage.
+    pub fn see(&self, from: &Vantage, packet: &Packet, seen: &mut Seen) {
+        dispatch!(self.level(), simd => self.see_with(simd, from, packet, seen));
+    }
+
+    #[inline(always)]
+    fn see_with<S: Simd>(&self, simd: S, from: &Vantage, packet: &Packet, seen: &mut Seen) {
+        let rays = (Lanes::load(simd, &packet.origin), Lanes::load(simd, &packet.direction));
+        let far = f64x8::splat(simd, f64::INFINITY);
+        let (mut nearest, mut ids) = (far, far);
+        let (mut curved, mut lost) = (Curved::new(), 0);
+        for_each_cell(&cells_of(simd, rays.1), packet.all(), |cell, lanes| match from.listed(cell) {
+            None => lost |= lanes,
+            Some(list) => {
+                for &id in list {
+                    let primitive = &self.primitives()[id as usize];
+                    if primitive.mask == 0 {
+                        continue;
+                    }
+                    if !primitive.is_flat() {
+                        curved.push((id, lanes));
+                        continue;
+                    }
+                    let number = f64x8::splat(simd, f64::from(id));
+                    let (t, met) = primitive.meet_lanes(simd, rays, far);
+                    let wins = met & (t.simd_lt(nearest) | (t.simd_eq(nearest) & number.simd_lt(ids)));
+                    (nearest, ids) = (wins.select(t, nearest), wins.select(number, ids));
+                }
+            }
+        });
+        let found = ids.simd_lt(far).to_bitmask() as u32;
+        let ids: [f64; LANES] = ids.into();
+        seen.t = nearest.into();
+        seen.part = [0; LANES];
+        seen.primitive = ids.map(|id| id as u32);
+        seen.hit = found & packet.all();
+        if !curved.is_empty() || lost != 0 {
+            self.see_curved(packet, &curved, lost, seen);
+        }
+        self.surfaces(simd, rays, packet, seen);
+    }
+
+    /// Goes on with what is not flat, and with lanes for which there is no list.
+    #[inline(never)]
+    fn see_curved(&self, packet: &Packet, curved: &Curved, lost: u32, seen: &mut Seen) {
+        let mut met = curved.iter().fold(lost, |met, (_, lanes)| met | lanes);
+        for lane in lanes_of(met) {
+            let ray = packet.ray(lane);
+            let mut best = Best::below(f64::INFINITY);
+            if let Some(hit) = seen.hit(lane) {
+                best.offer(hit.primitive, hit.crossing);
+            }
+            for &(id, _) in curved.iter().filter(|(_, lanes)| lanes >> lane & 1 == 1) {
+                if let Some(crossing) = self.primitives()[id as usize].intersect(&ray, best.reach()) {
+                    best.offer(id, crossing);
+                }
+            }
+            let hit = match lost >> lane & 1 {
+                1 => self.closest_hit(&ray, f64::INFINITY, u32::MAX, None),
+                _ => best.hit(),
+            };
+            match hit {
+                Some(Hit { crossing, primitive }) => {
+                    (seen.t[lane], seen.part[lane], seen.primitive[lane]) = (crossing.t, crossing.part, primitive);
+                }
+                None => met &= !(1 << lane),
+            }
+        }
+        seen.hit |= met;
+    }
+
+    /// Finds the surfaces where the rays hit.
+    #[inline(always)]
+    fn surfaces<S: Simd>(&self, simd: S, rays: (Lanes<S>, Lanes<S>), packet: &Packet, seen: &mut Seen) {
+        let near = rays.0 + rays.1 * f64x8::simd_from(simd, seen.t);
+        for_each_cell(&seen.primitive.clone(), seen.hit, |id, lanes| {
+            let primitive = &self.primitives()[id];
+            match primitive.flat_normal() {
+                Some(normal) if lanes.count_ones() > 1 => {
+                    let (mut points, mut offsets) = (Columns::default(), [0.0; LANES]);
+                    let (point, offset) = primitive.surface_lanes(simd, near);
+                    point.store(&mut points);
+                    offsets.copy_from_slice(&*offset);
+                    if lanes == seen.hit {
+                        (seen.point, seen.offset) = (points, offsets);
+                        Lanes::splat(simd, normal).store(&mut seen.normal);
+                        return;
+                    }
+                    for lane in lanes_of(lanes) {
+                        set_lane(&mut seen.point, lane, lane_of(&points, lane));
+                        set_lane(&mut seen.normal, lane, normal);
+                        seen.offset[lane] = offsets[lane];
+                    }
+                }
+                Some(_) | None => {
+                    for lane in lanes_of(lanes) {
+                        let crossing = Crossing { t: seen.t[lane], part: seen.part[lane] };
+                        let surface = primitive.surface(&packet.ray(lane), &crossing);
+                        set_lane(&mut seen.point, lane, surface.point);
+                        set_lane(&mut seen.normal, lane, surface.normal);
+                        seen.offset[lane] = surface.offset;
+                    }
+                }
+            }
+        });
+        let (point, normal) = (Lanes::load(simd, &seen.point), Lanes::load(simd, &seen.normal));
+        let outside = rays.1.dot(normal).simd_lt(f64x8::splat(simd, 0.0));
+        let turn = |along: f64x8<S>| outside.select(along, -along);
+        let face = Lanes { x: turn(normal.x), y: turn(normal.y), z: turn(normal.z) };
+        face.store(&mut seen.face);
+        (point + face * f64x8::simd_from(simd, seen.offset)).store(&mut seen.start);
+    }
+
+    /// How the points that are seen lie to a vantage. What lies between is looked up only where the cosine is positive, as
+    /// far as `reach` times the distance, and shuts the way if it shares a bit with `mask`.
+    pub fn sights(&self, seen: &Seen, to: &Vantage, reach: f64, mask: u32, sights: &mut Sights) {
+        dispatch!(self.level(), simd => self.sights_with(simd, seen, to, (reach, mask), sights));
+    }
+
+    #[inline(always)]
+    fn sights_with<S: Simd>(
+        &self,
+        simd: S,
+        seen: &Seen,
+        to: &Vantage,
+        (reach, mask): (f64, u32),
+        sights: &mut Sights,
+    ) {
+        let start = Lanes::load(simd, &seen.start);
+        let away = Lanes::splat(simd, to.point()) - start;
+        let squared = away.dot(away);
+        let distance = squared.sqrt();
+        let direction = away * (f64x8::splat(simd, 1.0) / distance);
+        let cosine = Lanes::load(simd, &seen.face).dot(direction);
+        direction.store(&mut sights.direction);
+        (sights.squared_distance, sights.distance, sights.cosine) = (squared.into(), distance.into(), cosine.into());
+        let wanted = seen.hit & cosine.simd_gt(f64x8::splat(simd, 0.0)).to_bitmask() as u32;
+        let (mut shut, mut unknown) = (0, 0);
+        if wanted != 0 {
+            let t_max = distance * f64x8::splat(simd, reach);
+            for_each_cell(&cells_of(simd, -away), wanted, |cell, lanes| {
+                for &id in to.listed(cell).unwrap_or(&[]) {
+                    let primitive = &self.primitives()[id as usize];
+                    if !primitive.is_flat() {
+                        unknown |= lanes;
+                        continue;
+                    }
+                    let (_, met) = primitive.meet_lanes(simd, (start, direction), t_max);
+                    let met = met.to_bitmask() as u32 & lanes;
+                    if primitive.mask & mask != 0 { shut |= met } else { unknown |= met }
+                }
+                if to.listed(cell).is_none() {
+                    unknown |= lanes;
+                }
+            });
+        }
+        sights.open = wanted & !(shut | unknown);
+        sights.shut = shut;
+    }
+}

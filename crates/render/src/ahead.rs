@@ -1,0 +1,76 @@
+//! What eight rays of the eye see, and how that lies to the lamps, found together before the rays are traced.
+//!
+//! It changes nothing but the speed: for a ray that nobody looked ahead for, the integrator finds the same by itself.
+
+use crate::compile::{CompiledScene, OPAQUE};
+use crate::visibility::SHORT_OF_LIGHT;
+use durer_geometry::{Hit, LANES, Packet, Ray, Seen, Sight, Sights, Surface};
+use durer_math::DVec2;
+
+/// With more lights than this, most are looked at one by one.
+const MOST_LIGHTS: usize = 16;
+
+/// What eight rays see.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Ahead {
+    seen: Seen,
+    /// For the first lights; of those without a vantage nothing is known.
+    sights: Vec<Option<Sights>>,
+}
+
+impl Ahead {
+    /// True if there is anything to be gained.
+    pub(crate) fn pays(scene: &CompiledScene) -> bool {
+        // Around the eye there may be media, and what is seen first may be a hole.
+        scene.eye_vantage.is_some() && scene.media_at_eye.is_empty() && !scene.has_holes
+    }
+
+    /// Looks through at most eight points of the picture, in pixels. False, and nothing is known, where that does not pay.
+    pub(crate) fn look(&mut self, scene: &CompiledScene, points: &[DVec2]) {
+        let Some(eye) = scene.eye_vantage.as_ref() else { return };
+        let rays: arrayvec::ArrayVec<Ray, LANES> = points.iter().map(|&point| scene.camera.ray(point)).collect();
+        scene.world.see(eye, &Packet::new(&rays), &mut self.seen);
+        self.sights.resize_with(scene.lights.len().min(MOST_LIGHTS), || None);
+        for (sights, vantage) in self.sights.iter_mut().zip(&scene.light_vantages) {
+            match vantage {
+                Some(vantage) => {
+                    let sights = sights.get_or_insert_default();
+                    scene.world.sights(&self.seen, vantage, SHORT_OF_LIGHT, OPAQUE, sights);
+                }
+                None => *sights = None,
+            }
+        }
+    }
+
+    /// What one of the rays sees.
+    pub(crate) fn of(&self, lane: usize) -> SeenAhead<'_> {
+        SeenAhead { ahead: self, lane }
+    }
+}
+
+/// What one ray sees.
+#[derive(Clone, Copy)]
+pub(crate) struct SeenAhead<'a> {
+    ahead: &'a Ahead,
+    lane: usize,
+}
+
+impl SeenAhead<'_> {
+    /// What it hits first.
+    #[inline]
+    pub(crate) fn hit(&self) -> Option<Hit> {
+        self.ahead.seen.hit(self.lane)
+    }
+
+    /// The surface there.
+    #[inline]
+    pub(crate) fn surface(&self) -> Surface {
+        self.ahead.seen.surface(self.lane)
+    }
+
+    /// How that lies to a light, if it is known.
+    #[inline]
+    pub(crate) fn sight(&self, light: usize) -> Option<Sight> {
+        Some(self.ahead.sights.get(light)?.as_ref()?.get(self.lane))
+    }
+}
