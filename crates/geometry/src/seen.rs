@@ -143,15 +143,32 @@ impl Sights {
     }
 }
 
-/// Calls `visit` for each cell that some of the lanes are in, with these lanes.
-#[inline(always)]
-fn for_each_cell(cells: &[u32; LANES], lanes: u32, mut visit: impl FnMut(usize, u32)) {
-    let mut left = lanes;
-    while left != 0 {
-        let cell = cells[left.trailing_zeros() as usize % LANES];
-        let same = (0..LANES).fold(0, |same, lane| same | u32::from(cells[lane] == cell) << lane) & left;
-        left &= !same;
-        visit(cell as usize, same);
+/// Lanes, sorted by the number of a cell or of something else that they have in common.
+struct ByCell {
+    cells: [u32; LANES],
+    left: u32,
+}
+
+impl ByCell {
+    #[inline(always)]
+    fn new(cells: [u32; LANES], lanes: u32) -> ByCell {
+        ByCell { cells, left: lanes }
+    }
+
+    /// The next number, and the lanes that have it.
+    #[inline(always)]
+    fn next(&mut self) -> Option<(usize, u32)> {
+        if self.left == 0 {
+            return None;
+        }
+        let cell = self.cells[self.left.trailing_zeros() as usize % LANES];
+        let mut same = 0;
+        for lane in 0..LANES {
+            same |= u32::from(self.cells[lane] == cell) << lane;
+        }
+        same &= self.left;
+        self.left &= !same;
+        Some((cell as usize, same))
     }
 }
 
@@ -161,7 +178,33 @@ fn lanes_of(set: u32) -> impl Iterator<Item = usize> {
     (0..LANES).filter(move |lane| set >> lane & 1 == 1)
 }
 
+/// The rays of a pinhole camera.
+#[derive(Clone, Copy, Debug)]
+pub struct Pinhole {
+    /// Where they start.
+    pub eye: DVec3,
+    /// To the middle of the picture.
+    pub forward: DVec3,
+    /// From there to where `across` is 1.
+    pub right: DVec3,
+    /// ... and to where `up` is 1.
+    pub up: DVec3,
+}
+
 impl World {
+    /// Eight rays: in the directions `forward + right · across + up · up`, of which the first `count` are wanted.
+    pub fn rays_of(&self, pinhole: &Pinhole, across: &[f64; LANES], up: &[f64; LANES], count: usize) -> Packet {
+        let mut direction = Columns::default();
+        dispatch!(self.level(), simd => {
+            let right = Lanes::splat(simd, pinhole.right) * f64x8::simd_from(simd, *across);
+            let up = Lanes::splat(simd, pinhole.up) * f64x8::simd_from(simd, *up);
+            let towards = Lanes::splat(simd, pinhole.forward) + (right + up);
+            let length = towards.dot(towards).sqrt();
+            (towards * (f64x8::splat(simd, 1.0) / length)).store(&mut direction);
+        });
+        Packet::from_point(pinhole.eye, direction, count)
+    }
+
     /// What the rays of a packet see, which all start at a vantage.
     pub fn see(&self, from: &Vantage, packet: &Packet, seen: &mut Seen) {
         dispatch!(self.level(), simd => self.see_with(simd, from, packet, seen));
@@ -173,30 +216,34 @@ impl World {
         let far = f64x8::splat(simd, f64::INFINITY);
         let (mut nearest, mut ids) = (far, far);
         let (mut curved, mut lost) = (Curved::new(), 0);
-        for_each_cell(&cells_of(simd, rays.1), packet.all(), |cell, lanes| match from.listed(cell) {
-            None => lost |= lanes,
-            Some(list) => {
-                for &id in list {
-                    let primitive = &self.primitives()[id as usize];
-                    if primitive.mask == 0 {
-                        continue;
-                    }
-                    if !primitive.is_flat() {
-                        curved.push((id, lanes));
-                        continue;
-                    }
-                    let number = f64x8::splat(simd, f64::from(id));
-                    let (t, met) = primitive.meet_lanes(simd, rays, far);
-                    let wins = met & (t.simd_lt(nearest) | (t.simd_eq(nearest) & number.simd_lt(ids)));
-                    (nearest, ids) = (wins.select(t, nearest), wins.select(number, ids));
+        let mut cells = ByCell::new(cells_of(simd, rays.1), packet.all());
+        while let Some((cell, lanes)) = cells.next() {
+            let Some(list) = from.listed(cell) else {
+                lost |= lanes;
+                continue;
+            };
+            for &id in list {
+                let primitive = &self.primitives()[id as usize];
+                if primitive.mask == 0 {
+                    continue;
                 }
+                if !primitive.is_flat() {
+                    curved.push((id, lanes));
+                    continue;
+                }
+                let number = f64x8::splat(simd, f64::from(id));
+                let (t, met) = primitive.meet_lanes(simd, rays, far);
+                let wins = met & (t.simd_lt(nearest) | (t.simd_eq(nearest) & number.simd_lt(ids)));
+                (nearest, ids) = (wins.select(t, nearest), wins.select(number, ids));
             }
-        });
+        }
         let found = ids.simd_lt(far).to_bitmask() as u32;
         let ids: [f64; LANES] = ids.into();
         seen.t = nearest.into();
         seen.part = [0; LANES];
-        seen.primitive = ids.map(|id| id as u32);
+        for (primitive, id) in seen.primitive.iter_mut().zip(ids) {
+            *primitive = id as u32;
+        }
         seen.hit = found & packet.all();
         if !curved.is_empty() || lost != 0 {
             self.see_curved(packet, &curved, lost, seen);
@@ -237,7 +284,8 @@ impl World {
     #[inline(always)]
     fn surfaces<S: Simd>(&self, simd: S, rays: (Lanes<S>, Lanes<S>), packet: &Packet, seen: &mut Seen) {
         let near = rays.0 + rays.1 * f64x8::simd_from(simd, seen.t);
-        for_each_cell(&seen.primitive.clone(), seen.hit, |id, lanes| {
+        let mut primitives = ByCell::new(seen.primitive, seen.hit);
+        while let Some((id, lanes)) = primitives.next() {
             let primitive = &self.primitives()[id];
             match primitive.flat_normal() {
                 Some(normal) if lanes.count_ones() > 1 => {
@@ -248,7 +296,7 @@ impl World {
                     if lanes == seen.hit {
                         (seen.point, seen.offset) = (points, offsets);
                         Lanes::splat(simd, normal).store(&mut seen.normal);
-                        return;
+                        continue;
                     }
                     for lane in lanes_of(lanes) {
                         set_lane(&mut seen.point, lane, lane_of(&points, lane));
@@ -266,11 +314,15 @@ impl World {
                     }
                 }
             }
-        });
+        }
         let (point, normal) = (Lanes::load(simd, &seen.point), Lanes::load(simd, &seen.normal));
         let outside = rays.1.dot(normal).simd_lt(f64x8::splat(simd, 0.0));
-        let turn = |along: f64x8<S>| outside.select(along, -along);
-        let face = Lanes { x: turn(normal.x), y: turn(normal.y), z: turn(normal.z) };
+        let inward = -normal;
+        let face = Lanes {
+            x: outside.select(normal.x, inward.x),
+            y: outside.select(normal.y, inward.y),
+            z: outside.select(normal.z, inward.z),
+        };
         face.store(&mut seen.face);
         (point + face * f64x8::simd_from(simd, seen.offset)).store(&mut seen.start);
     }
@@ -302,8 +354,13 @@ impl World {
         let (mut shut, mut unknown) = (0, 0);
         if wanted != 0 {
             let t_max = distance * f64x8::splat(simd, reach);
-            for_each_cell(&cells_of(simd, -away), wanted, |cell, lanes| {
-                for &id in to.listed(cell).unwrap_or(&[]) {
+            let mut cells = ByCell::new(cells_of(simd, -away), wanted);
+            while let Some((cell, lanes)) = cells.next() {
+                let Some(list) = to.listed(cell) else {
+                    unknown |= lanes;
+                    continue;
+                };
+                for &id in list {
                     let primitive = &self.primitives()[id as usize];
                     if !primitive.is_flat() {
                         unknown |= lanes;
@@ -313,10 +370,7 @@ impl World {
                     let met = met.to_bitmask() as u32 & lanes;
                     if primitive.mask & mask != 0 { shut |= met } else { unknown |= met }
                 }
-                if to.listed(cell).is_none() {
-                    unknown |= lanes;
-                }
-            });
+            }
         }
         sights.open = wanted & !(shut | unknown);
         sights.shut = shut;

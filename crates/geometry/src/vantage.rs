@@ -216,28 +216,35 @@ fn cell_of(d: DVec3) -> usize {
 /// The cells that eight directions pass through.
 #[inline(always)]
 pub(crate) fn cells_of<S: Simd>(simd: S, d: Lanes<S>) -> [u32; LANES] {
-    let number = |x: f64| f64x8::splat(simd, x);
     let (ax, ay, az) = (d.x.abs(), d.y.abs(), d.z.abs());
     let along_z = az.simd_ge(ax) & az.simd_ge(ay);
     let along_y = ay.simd_ge(ax);
-    let choose = |x: f64x8<S>, y: f64x8<S>, z: f64x8<S>| along_z.select(z, along_y.select(y, x));
-    let depth = choose(d.x, d.y, d.z);
-    let (s, t) = (choose(d.y, d.x, d.x), choose(d.z, d.z, d.y));
-    let scale = number((CELLS / 2) as f64) / depth.abs();
-    // Adding this rounds to a whole number; a sum of whole numbers and this then has them in its lowest bits.
-    const ROUND: f64 = (3_u64 << 51) as f64;
-    let index = |along: f64x8<S>| {
-        let (least, last) = (number(0.0), number((CELLS - 1) as f64));
-        let cell = along * scale + number((CELLS / 2) as f64 - 0.5);
-        let cell = cell.simd_gt(least).select(cell, least);
-        let cell = cell.simd_lt(last).select(cell, last);
-        (cell + number(ROUND)) - number(ROUND)
-    };
-    let positive = depth.simd_gt(number(0.0)).select(number(1.0), number(0.0));
-    let face = choose(number(0.0), number(2.0), number(4.0)) + positive;
-    let cells = (face * number(CELLS as f64) + index(t)) * number(CELLS as f64) + index(s);
-    let bits: [f64; LANES] = (cells + number(ROUND)).into();
-    bits.map(|cell| cell.to_bits() as u32 & 0xffff)
+    let depth = along_z.select(d.z, along_y.select(d.y, d.x));
+    let (s, t) = (along_z.select(d.x, along_y.select(d.x, d.y)), along_z.select(d.y, d.z));
+    let scale = f64x8::splat(simd, (CELLS / 2) as f64) / depth.abs();
+    let zero = f64x8::splat(simd, 0.0);
+    let positive = depth.simd_gt(zero).select(f64x8::splat(simd, 1.0), zero);
+    let axis = along_z.select(f64x8::splat(simd, 4.0), along_y.select(f64x8::splat(simd, 2.0), zero));
+    let rows = (axis + positive) * CELLS as f64 + whole_index(simd, t * scale);
+    let cells: [f64; LANES] = (rows * CELLS as f64 + whole_index(simd, s * scale) + ROUND).into();
+    let mut whole = [0; LANES];
+    for (whole, cell) in whole.iter_mut().zip(cells) {
+        *whole = cell.to_bits() as u32 & 0xffff;
+    }
+    whole
+}
+
+/// Adding this rounds to a whole number; a sum of whole numbers and this then has them in its lowest bits.
+const ROUND: f64 = (3_u64 << 51) as f64;
+
+/// In which of the cells along an edge numbers from -24 to 24 are, as they are from end to end.
+#[inline(always)]
+fn whole_index<S: Simd>(simd: S, along: f64x8<S>) -> f64x8<S> {
+    let (least, last) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, (CELLS - 1) as f64));
+    let cell = along + ((CELLS / 2) as f64 - 0.5);
+    let cell = cell.simd_gt(least).select(cell, least);
+    let cell = cell.simd_lt(last).select(cell, last);
+    (cell + ROUND) - ROUND
 }
 
 /// Calls `visit` for every cell through which a box may be seen, by interval arithmetic on its projection.

@@ -4,7 +4,7 @@
 
 use crate::compile::{CompiledScene, OPAQUE};
 use crate::visibility::SHORT_OF_LIGHT;
-use durer_geometry::{Hit, LANES, Packet, Ray, Seen, Sight, Sights, Surface};
+use durer_geometry::{Hit, Packet, Ray, Seen, Sight, Sights, Surface};
 use durer_math::DVec2;
 
 /// With more lights than this, most are looked at one by one.
@@ -13,6 +13,7 @@ const MOST_LIGHTS: usize = 16;
 /// What eight rays see.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ahead {
+    rays: Option<Packet>,
     seen: Seen,
     /// For the first lights; of those without a vantage nothing is known.
     sights: Vec<Option<Sights>>,
@@ -28,8 +29,9 @@ impl Ahead {
     /// Looks through at most eight points of the picture, in pixels. False, and nothing is known, where that does not pay.
     pub(crate) fn look(&mut self, scene: &CompiledScene, points: &[DVec2]) {
         let Some(eye) = scene.eye_vantage.as_ref() else { return };
-        let rays: arrayvec::ArrayVec<Ray, LANES> = points.iter().map(|&point| scene.camera.ray(point)).collect();
-        scene.world.see(eye, &Packet::new(&rays), &mut self.seen);
+        let Some(rays) = scene.camera.rays(&scene.world, points) else { return };
+        scene.world.see(eye, &rays, &mut self.seen);
+        self.rays = Some(rays);
         self.sights.resize_with(scene.lights.len().min(MOST_LIGHTS), || None);
         for (sights, vantage) in self.sights.iter_mut().zip(&scene.light_vantages) {
             match vantage {
@@ -56,6 +58,15 @@ pub(crate) struct SeenAhead<'a> {
 }
 
 impl SeenAhead<'_> {
+    /// The ray, through this point of the picture.
+    #[inline]
+    pub(crate) fn ray(&self, scene: &CompiledScene, at: DVec2) -> Ray {
+        match &self.ahead.rays {
+            Some(rays) => rays.ray(self.lane),
+            None => scene.camera.ray(at),
+        }
+    }
+
     /// What it hits first.
     #[inline]
     pub(crate) fn hit(&self) -> Option<Hit> {

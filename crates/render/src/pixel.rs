@@ -50,7 +50,10 @@ impl<I: Integrator> Samples for Gathered<'_, I> {
             (None, Some(vantage)) => Known::Vantage(vantage),
             (None, None) => Known::Nothing,
         };
-        let ray = self.scene.camera.ray(at);
+        let ray = match known.seen() {
+            Some(seen) => seen.ray(self.scene, at),
+            None => self.scene.camera.ray(at),
+        };
         let sampler = Sampler::of_place(0, at);
         let mut color = self.integrator.radiance(self.scene, &ray, known, &sampler, &mut self.account.rays);
         if !color.is_finite() {

@@ -29,22 +29,19 @@ impl Primitive {
     ) -> (f64x8<S>, mask64x8<S>) {
         let (zero, one) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, 1.0));
         let map = &self.shape_from_world;
-        let along = |axis: usize, v: Lanes<S>| {
-            let row = |column: f64| f64x8::splat(simd, column);
-            v.x * row(map.x_axis[axis]) + v.y * row(map.y_axis[axis]) + v.z * row(map.z_axis[axis])
-        };
         let from_middle = origin - Lanes::splat(simd, self.origin);
-        let t = -along(1, from_middle) / along(1, direction);
+        let t = -from_middle.row(simd, map, 1) / direction.row(simd, map, 1);
         let met = t.simd_gt(zero) & t.simd_lt(t_max);
-        let place = |axis: usize| along(axis, from_middle) + t * along(axis, direction);
         let within = match &self.kind {
             Kind::Plane(_) => return (t, met),
             Kind::Rectangle(_) => {
-                let (x, z) = (place(0), place(2));
+                let x = from_middle.row(simd, map, 0) + t * direction.row(simd, map, 0);
+                let z = from_middle.row(simd, map, 2) + t * direction.row(simd, map, 2);
                 x.simd_ge(zero) & x.simd_le(one) & z.simd_ge(zero) & z.simd_le(one)
             }
             Kind::Disc(disc) => {
-                let (x, z) = (place(0), place(2));
+                let x = from_middle.row(simd, map, 0) + t * direction.row(simd, map, 0);
+                let z = from_middle.row(simd, map, 2) + t * direction.row(simd, map, 2);
                 let r2 = x * x + z * z;
                 r2.simd_le(one) & r2.simd_ge(f64x8::splat(simd, disc.inner_radius * disc.inner_radius))
             }
@@ -65,16 +62,15 @@ impl Primitive {
     /// surely on that side.
     #[inline(always)]
     pub(crate) fn surface_lanes<S: Simd>(&self, simd: S, near: Lanes<S>) -> (Lanes<S>, f64x8<S>) {
-        let number = |x: f64| f64x8::splat(simd, x);
         let in_shape = (near - Lanes::splat(simd, self.origin)).mapped(simd, &self.shape_from_world);
-        let snapped = Lanes { y: number(0.0), ..in_shape };
+        let snapped = Lanes { y: f64x8::splat(simd, 0.0), ..in_shape };
         let point = Lanes::splat(simd, self.origin) + snapped.mapped(simd, &self.world_from_shape);
         let per_stretch = self.flat.map_or(0.0, |(_, per_stretch)| per_stretch);
         let [world_norm, shape_norm] = self.norms;
-        let reach = number(world_norm) * snapped.largest() + point.largest() + number(super::largest(self.origin));
+        let reach = snapped.largest() * world_norm + point.largest() + super::largest(self.origin);
         // Points with y = 0 are on the shape without rounding.
-        let doubt = number(self.residual) * snapped.largest() + number(16.0 * f64::EPSILON * shape_norm) * reach;
-        (point, number(4.0) * doubt * number(per_stretch))
+        let doubt = snapped.largest() * self.residual + reach * (16.0 * f64::EPSILON * shape_norm);
+        (point, doubt * 4.0 * per_stretch)
     }
 }
 

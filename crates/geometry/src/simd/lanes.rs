@@ -54,16 +54,28 @@ impl<S: Simd> Lanes<S> {
     /// The greatest of the coordinates' amounts.
     #[inline(always)]
     pub(crate) fn largest(self) -> f64x8<S> {
-        let max = |a: f64x8<S>, b: f64x8<S>| a.simd_gt(b).select(a, b);
-        max(self.x.abs(), max(self.y.abs(), self.z.abs()))
+        greater(self.x.abs(), greater(self.y.abs(), self.z.abs()))
+    }
+
+    /// One coordinate of what a matrix makes of the vectors.
+    #[inline(always)]
+    pub(crate) fn row(self, simd: S, map: &DMat3, axis: usize) -> f64x8<S> {
+        let column = [map.x_axis[axis], map.y_axis[axis], map.z_axis[axis]];
+        self.dot(Lanes::splat(simd, column.into()))
     }
 
     /// A matrix times the vectors.
     #[inline(always)]
     pub(crate) fn mapped(self, simd: S, map: &DMat3) -> Lanes<S> {
-        let column = |axis: DVec3, along: f64x8<S>| Lanes::splat(simd, axis) * along;
-        column(map.x_axis, self.x) + column(map.y_axis, self.y) + column(map.z_axis, self.z)
+        let [x, y, z] = [map.x_axis, map.y_axis, map.z_axis];
+        Lanes::splat(simd, x) * self.x + Lanes::splat(simd, y) * self.y + Lanes::splat(simd, z) * self.z
     }
+}
+
+/// The first number unless the second is as great.
+#[inline(always)]
+fn greater<S: Simd>(a: f64x8<S>, b: f64x8<S>) -> f64x8<S> {
+    a.simd_gt(b).select(a, b)
 }
 
 impl<S: Simd> Add for Lanes<S> {

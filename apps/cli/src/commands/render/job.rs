@@ -9,7 +9,7 @@ use crate::interrupt::Interrupt;
 use crate::numbers::short;
 use crate::progress::{Bar, Phase, Reached, Show};
 use crate::{output, provenance, target};
-use durer::imaging::{EncodeOptions, Image};
+use durer::imaging::EncodeOptions;
 use durer::{
     CheckedScene, Checkpoint, Film, Origin, PictureFile, Progress, Region, RenderError, RenderOptions, SceneHash,
     Sources, read_checkpoint, temporary_beside,
@@ -73,10 +73,10 @@ impl Job<'_> {
             }
         }
         let rays_before = film.as_ref().map_or(0, |film| film.rays().total());
-        let (film, build, render) = self.trace(&scene, (film, region), &interrupt, saver.as_ref(), show)?;
+        let (mut film, build, render) = self.trace(&scene, (film, region), &interrupt, saver.as_ref(), show)?;
         let report = Report::new(arguments.scene.path.clone(), path, format, &film).after(rays_before);
         let report = report.with_seconds(Seconds { load, build, render, write: 0.0 }).stopped_by(interrupt.reason());
-        self.finish(&film, Outcome { file, options, saver: saver.as_ref(), show }, report)
+        self.finish(&mut film, Outcome { file, options, saver: saver.as_ref(), show }, report)
     }
 
     /// The part that is rendered, if it lies within the picture.
@@ -163,7 +163,7 @@ impl Job<'_> {
     }
 
     /// Writes what there is, and says so.
-    fn finish(&self, film: &Film, outcome: Outcome<'_>, mut report: Report) -> Result<Exit, Failure> {
+    fn finish(&self, film: &mut Film, outcome: Outcome<'_>, mut report: Report) -> Result<Exit, Failure> {
         let Outcome { file, options, saver, show } = outcome;
         let reached = |remaining| Some(Reached { finished: film.finished_pixels(), total: report.pixels(), remaining });
         let (complete, interrupted) = (reached(Some(0.0)), reached(None));
@@ -176,11 +176,9 @@ impl Job<'_> {
             true => file,
             false => file.with_name(&report.name_of_part()),
         };
-        let Region { width, height, .. } = film.region();
-        let image = Image { width, height, pixels: film.pixels().to_vec() };
         let (bytes, write) = timed(|| {
             let _phase = Phase::begin("writing", &self.arguments.output_path().to_string_lossy(), show);
-            file.write(&image, &options)
+            film.with_picture(|image| file.write(image, &options))
         });
         let kept = match (saver, bytes.is_ok() && report.is_complete()) {
             (Some(saver), false) => self.keep(saver, film, bytes.is_err()),
