@@ -8,7 +8,7 @@ use crate::packet::{LANES, Packet};
 use crate::simd::lanes::{Columns, Lanes, lane_of, set_lane};
 use crate::vantage::{Vantage, cells_of};
 use crate::world::Best;
-use crate::{Crossing, Hit, Surface, World};
+use crate::{Crossing, Hit, Ray, Surface, World};
 use arrayvec::ArrayVec;
 use durer_math::DVec3;
 use fearless_simd::{Simd, dispatch, f64x8, prelude::*};
@@ -29,6 +29,7 @@ pub struct Seen {
     part: [u32; LANES],
     /// Which of them see something, one bit each.
     hit: u32,
+    hits: [Option<Hit>; LANES],
 }
 
 /// How eight points lie to another one.
@@ -88,6 +89,7 @@ impl Default for Seen {
             primitive: [NOTHING; LANES],
             part: [0; LANES],
             hit: 0,
+            hits: [None; LANES],
         }
     }
 }
@@ -109,6 +111,12 @@ impl Seen {
     /// What a ray hits first.
     #[inline]
     pub fn hit(&self, lane: usize) -> Option<Hit> {
+        self.hits[lane % LANES]
+    }
+
+    /// The same, put together.
+    #[inline(always)]
+    fn make_hit(&self, lane: usize) -> Option<Hit> {
         let crossing = Crossing { t: self.t[lane], part: self.part[lane] };
         (self.hit >> lane & 1 == 1).then_some(Hit { crossing, primitive: self.primitive[lane] })
     }
@@ -116,6 +124,7 @@ impl Seen {
     /// The surface there.
     #[inline]
     pub fn surface(&self, lane: usize) -> Surface {
+        let lane = lane % LANES;
         Surface {
             point: lane_of(&self.point, lane),
             normal: lane_of(&self.normal, lane),
@@ -128,6 +137,7 @@ impl Sights {
     /// How one of the points lies.
     #[inline]
     pub fn get(&self, lane: usize) -> Sight {
+        let lane = lane % LANES;
         let way = match (self.open >> lane & 1, self.shut >> lane & 1) {
             (1, _) => Way::Open,
             (_, 1) => Way::Shut,
@@ -248,6 +258,9 @@ impl World {
         if !curved.is_empty() || lost != 0 {
             self.see_curved(packet, &curved, lost, seen);
         }
+        for lane in 0..LANES {
+            seen.hits[lane] = seen.make_hit(lane);
+        }
         self.surfaces(simd, rays, packet, seen);
     }
 
@@ -258,7 +271,7 @@ impl World {
         for lane in lanes_of(met) {
             let ray = packet.ray(lane);
             let mut best = Best::below(f64::INFINITY);
-            if let Some(hit) = seen.hit(lane) {
+            if let Some(hit) = seen.make_hit(lane) {
                 best.offer(hit.primitive, hit.crossing);
             }
             for &(id, _) in curved.iter().filter(|(_, lanes)| lanes >> lane & 1 == 1) {
@@ -354,6 +367,7 @@ impl World {
         let (mut shut, mut unknown) = (0, 0);
         if wanted != 0 {
             let t_max = distance * f64x8::splat(simd, reach);
+            let mut curved = Curved::new();
             let mut cells = ByCell::new(cells_of(simd, -away), wanted);
             while let Some((cell, lanes)) = cells.next() {
                 let Some(list) = to.listed(cell) else {
@@ -363,7 +377,7 @@ impl World {
                 for &id in list {
                     let primitive = &self.primitives()[id as usize];
                     if !primitive.is_flat() {
-                        unknown |= lanes;
+                        curved.push((id, lanes));
                         continue;
                     }
                     let (_, met) = primitive.meet_lanes(simd, (start, direction), t_max);
@@ -371,8 +385,34 @@ impl World {
                     if primitive.mask & mask != 0 { shut |= met } else { unknown |= met }
                 }
             }
+            if !curved.is_empty() {
+                let met = self.curved_on_way(&curved, (seen, sights), &t_max.into(), mask);
+                (shut, unknown) = (shut | met[0], unknown | met[1]);
+            }
         }
         sights.open = wanted & !(shut | unknown);
         sights.shut = shut;
+    }
+
+    /// Which lanes something that is not flat shuts, and where something else is in the way.
+    #[inline(never)]
+    fn curved_on_way(
+        &self,
+        curved: &Curved,
+        (seen, sights): (&Seen, &Sights),
+        t_max: &[f64; LANES],
+        mask: u32,
+    ) -> [u32; 2] {
+        let [mut shut, mut other] = [0, 0];
+        for &(id, lanes) in curved {
+            let primitive = &self.primitives()[id as usize];
+            for lane in lanes_of(lanes & !shut) {
+                let ray = Ray { origin: lane_of(&seen.start, lane), direction: lane_of(&sights.direction, lane) };
+                if primitive.meets(&ray, t_max[lane]) {
+                    *(if primitive.mask & mask != 0 { &mut shut } else { &mut other }) |= 1 << lane;
+                }
+            }
+        }
+        [shut, other]
     }
 }

@@ -79,9 +79,9 @@ impl SeenAhead<'_> {
         self.ahead.seen.surface(self.lane)
     }
 
-    /// How that lies to a light, if it is known.
+    /// How that lies to the first lights, one after the other, as far as it is known.
     #[inline]
-    pub(crate) fn sight(&self, light: usize) -> Option<Sight> {
-        Some(self.ahead.sights.get(light)?.as_ref()?.get(self.lane))
+    pub(crate) fn sights(&self) -> impl Iterator<Item = Option<Sight>> {
+        self.ahead.sights.iter().map(|sights| Some(sights.as_ref()?.get(self.lane)))
     }
 }

@@ -36,7 +36,7 @@ impl<'a> Shading<'a> {
     }
 
     /// The same where the surface is known.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn of_surface(scene: &'a CompiledScene, ray: &Ray, hit: &Hit, surface: Surface) -> Shading<'a> {
         let object = &scene.objects[hit.primitive as usize];
         if object.looks.has_details() {

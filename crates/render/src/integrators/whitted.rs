@@ -8,7 +8,7 @@ use super::Integrator;
 use crate::ahead::SeenAhead;
 use crate::background::background;
 use crate::compile::CompiledScene;
-use crate::holes::{Known, meet};
+use crate::holes::{Known, find};
 use crate::materials::refract;
 use crate::media::{Media, Undo};
 use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Source, SurfaceSeen};
@@ -58,16 +58,18 @@ impl<O: Observer> Path<'_, O> {
     /// Adds what arrives along a ray, times its weight.
     fn trace(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb, known: Known<'_>) {
         self.observer.ray_begins(kind, depth, ray, weight);
-        let met = meet(self.scene, ray, known, self.observer);
+        let met = find(self.scene, ray, known, self.observer);
         let weight = self.along(met.length, weight);
         match met.hit {
             None => self.add(Source::Background, weight * background(&self.scene.background, ray.direction)),
             Some(hit) => {
                 let seen = known.seen();
-                let shading = match &seen {
-                    Some(seen) => Shading::of_surface(self.scene, &met.ray, &hit, seen.surface()),
-                    None => Shading::at(self.scene, &met.ray, &hit),
+                let ray = met.onward.as_ref().unwrap_or(ray);
+                let surface = match &seen {
+                    Some(seen) => seen.surface(),
+                    None => self.scene.world.surface(ray, &hit),
                 };
+                let shading = Shading::of_surface(self.scene, ray, &hit, surface);
                 let Shading { surface, color, opacity, from_outside, .. } = shading;
                 let (length, normal) = (met.length, shading.normal());
                 self.observer.surface(&SurfaceSeen { hit, length, surface, normal, color, opacity, from_outside });
@@ -113,8 +115,9 @@ impl<O: Observer> Path<'_, O> {
         self.add(Source::Ambient, given_back * self.scene.ambient * material.ambient);
         // Lit points lie off the surface like the origins of all rays, so that shadow rays end exactly in the light.
         let point = shading.origin_back();
+        let mut sights = seen.iter().flat_map(SeenAhead::sights);
         for (index, light) in self.scene.lights.iter().enumerate() {
-            let sight = seen.and_then(|seen| seen.sight(index));
+            let sight = sights.next().flatten();
             let arriving = match &sight {
                 Some(sight) => light.arriving_along(sight.direction, sight.distance, sight.squared_distance),
                 None => light.arriving(point),
@@ -159,6 +162,9 @@ impl<O: Observer> Path<'_, O> {
     #[inline(always)]
     fn go_on(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb) {
         let material = shading.material;
+        if material.reflection.is_black() && !material.is_clear() {
+            return;
+        }
         let behind = weight * material.transparency;
         let boundary = self.boundary(shading);
         // What cannot get through comes from the mirrored direction, like what a mirror adds: one ray serves both.
