@@ -21,7 +21,7 @@ pub use bvh::traverse::Work;
 pub use packet::{LANES, Packet, PacketHits};
 pub use primitive::{Primitive, Surface};
 pub use ray::{Crossing, Ray};
-pub use seen::{Pinhole, Seen, Sight, Sights, Way};
+pub use seen::{Aim, Pinhole, Seen, Sight, Sights, Way};
 pub use shapes::mesh::{Mesh, MeshSource};
 pub use shapes::particles::Particles;
 pub use shapes::solid::{Operand, Operation};

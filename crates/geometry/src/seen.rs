@@ -6,7 +6,7 @@
 
 use crate::packet::{LANES, Packet};
 use crate::simd::lanes::{Columns, Lanes, lane_of, set_lane};
-use crate::vantage::{Vantage, cells_of};
+use crate::vantage::{ROUND, Vantage, cells_of};
 use crate::world::Best;
 use crate::{Crossing, Hit, Ray, Surface, World};
 use arrayvec::ArrayVec;
@@ -25,8 +25,6 @@ pub struct Seen {
     face: Columns,
     /// From where rays start on that side.
     start: Columns,
-    primitive: [u32; LANES],
-    part: [u32; LANES],
     /// Which of them see something, one bit each.
     hit: u32,
     hits: [Option<Hit>; LANES],
@@ -59,6 +57,19 @@ pub struct Sight {
     pub way: Way,
 }
 
+/// To where it is asked how points lie.
+#[derive(Clone, Copy, Debug)]
+pub struct Aim<'a> {
+    /// The point.
+    pub to: &'a Vantage,
+    /// Only what lies nearer than this times the distance counts.
+    pub reach: f64,
+    /// What shares a bit with this shuts the way.
+    pub mask: u32,
+    /// Only points within a cone count: its axis, from its tip at the point, and the cosine of its half-angle.
+    pub cone: Option<(DVec3, f64)>,
+}
+
 /// What lies between two points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
@@ -86,8 +97,6 @@ impl Default for Seen {
             offset: [0.0; LANES],
             face: Columns::default(),
             start: Columns::default(),
-            primitive: [NOTHING; LANES],
-            part: [0; LANES],
             hit: 0,
             hits: [None; LANES],
         }
@@ -114,11 +123,9 @@ impl Seen {
         self.hits[lane % LANES]
     }
 
-    /// The same, put together.
-    #[inline(always)]
-    fn make_hit(&self, lane: usize) -> Option<Hit> {
-        let crossing = Crossing { t: self.t[lane], part: self.part[lane] };
-        (self.hit >> lane & 1 == 1).then_some(Hit { crossing, primitive: self.primitive[lane] })
+    /// How far away that is, for all rays; infinite where there is nothing.
+    pub fn distances(&self) -> &[f64; LANES] {
+        &self.t
     }
 
     /// The surface there.
@@ -153,33 +160,36 @@ impl Sights {
     }
 }
 
-/// Lanes, sorted by the number of a cell or of something else that they have in common.
-struct ByCell {
-    cells: [u32; LANES],
+/// Lanes, sorted by a number that they have in common, of a cell or of a primitive; numbers are sums with [`ROUND`].
+struct ByNumber<S: Simd> {
+    numbers: f64x8<S>,
+    each: [f64; LANES],
     left: u32,
 }
 
-impl ByCell {
+impl<S: Simd> ByNumber<S> {
     #[inline(always)]
-    fn new(cells: [u32; LANES], lanes: u32) -> ByCell {
-        ByCell { cells, left: lanes }
+    fn new(numbers: f64x8<S>, lanes: u32) -> ByNumber<S> {
+        ByNumber { numbers, each: numbers.into(), left: lanes }
     }
 
     /// The next number, and the lanes that have it.
     #[inline(always)]
-    fn next(&mut self) -> Option<(usize, u32)> {
+    fn next(&mut self, simd: S) -> Option<(usize, u32)> {
         if self.left == 0 {
             return None;
         }
-        let cell = self.cells[self.left.trailing_zeros() as usize % LANES];
-        let mut same = 0;
-        for lane in 0..LANES {
-            same |= u32::from(self.cells[lane] == cell) << lane;
-        }
-        same &= self.left;
+        let number = self.each[self.left.trailing_zeros() as usize % LANES];
+        let same = self.numbers.simd_eq(f64x8::splat(simd, number)).to_bitmask() as u32 & self.left;
         self.left &= !same;
-        Some((cell as usize, same))
+        Some((whole(number), same))
     }
+}
+
+/// A number that was added to [`ROUND`].
+#[inline(always)]
+fn whole(number: f64) -> usize {
+    number.to_bits() as u32 as usize
 }
 
 /// Which lanes are in a set.
@@ -224,10 +234,10 @@ impl World {
     fn see_with<S: Simd>(&self, simd: S, from: &Vantage, packet: &Packet, seen: &mut Seen) {
         let rays = (Lanes::load(simd, &packet.origin), Lanes::load(simd, &packet.direction));
         let far = f64x8::splat(simd, f64::INFINITY);
-        let (mut nearest, mut ids) = (far, far);
+        let (mut nearest, mut ids) = (far, f64x8::splat(simd, ROUND + f64::from(NOTHING)));
         let (mut curved, mut lost) = (Curved::new(), 0);
-        let mut cells = ByCell::new(cells_of(simd, rays.1), packet.all());
-        while let Some((cell, lanes)) = cells.next() {
+        let mut cells = ByNumber::new(cells_of(simd, rays.1), packet.all());
+        while let Some((cell, lanes)) = cells.next(simd) {
             let Some(list) = from.listed(cell) else {
                 lost |= lanes;
                 continue;
@@ -241,37 +251,45 @@ impl World {
                     curved.push((id, lanes));
                     continue;
                 }
-                let number = f64x8::splat(simd, f64::from(id));
+                let number = f64x8::splat(simd, ROUND + f64::from(id));
                 let (t, met) = primitive.meet_lanes(simd, rays, far);
                 let wins = met & (t.simd_lt(nearest) | (t.simd_eq(nearest) & number.simd_lt(ids)));
                 (nearest, ids) = (wins.select(t, nearest), wins.select(number, ids));
             }
         }
-        let found = ids.simd_lt(far).to_bitmask() as u32;
-        let ids: [f64; LANES] = ids.into();
+        let found = nearest.simd_lt(far).to_bitmask() as u32;
+        let each: [f64; LANES] = ids.into();
         seen.t = nearest.into();
-        seen.part = [0; LANES];
-        for (primitive, id) in seen.primitive.iter_mut().zip(ids) {
-            *primitive = id as u32;
-        }
         seen.hit = found & packet.all();
+        for lane in 0..LANES {
+            seen.hits[lane] = match seen.hit >> lane & 1 {
+                1 => {
+                    Some(Hit { crossing: Crossing { t: seen.t[lane], part: 0 }, primitive: whole(each[lane]) as u32 })
+                }
+                _ => None,
+            };
+        }
         if !curved.is_empty() || lost != 0 {
             self.see_curved(packet, &curved, lost, seen);
+            let mut each = each;
+            for lane in 0..LANES {
+                if let Some(hit) = seen.hits[lane] {
+                    each[lane] = ROUND + f64::from(hit.primitive);
+                }
+            }
+            ids = each.simd_into(simd);
         }
-        for lane in 0..LANES {
-            seen.hits[lane] = seen.make_hit(lane);
-        }
-        self.surfaces(simd, rays, packet, seen);
+        self.surfaces(simd, rays, (packet, ids), seen);
     }
 
     /// Goes on with what is not flat, and with lanes for which there is no list.
     #[inline(never)]
     fn see_curved(&self, packet: &Packet, curved: &Curved, lost: u32, seen: &mut Seen) {
-        let mut met = curved.iter().fold(lost, |met, (_, lanes)| met | lanes);
-        for lane in lanes_of(met) {
+        let lanes = curved.iter().fold(lost, |all, (_, lanes)| all | lanes);
+        for lane in lanes_of(lanes) {
             let ray = packet.ray(lane);
             let mut best = Best::below(f64::INFINITY);
-            if let Some(hit) = seen.make_hit(lane) {
+            if let Some(hit) = seen.hits[lane] {
                 best.offer(hit.primitive, hit.crossing);
             }
             for &(id, _) in curved.iter().filter(|(_, lanes)| lanes >> lane & 1 == 1) {
@@ -283,22 +301,24 @@ impl World {
                 1 => self.closest_hit(&ray, f64::INFINITY, u32::MAX, None),
                 _ => best.hit(),
             };
-            match hit {
-                Some(Hit { crossing, primitive }) => {
-                    (seen.t[lane], seen.part[lane], seen.primitive[lane]) = (crossing.t, crossing.part, primitive);
-                }
-                None => met &= !(1 << lane),
-            }
+            seen.hits[lane] = hit;
+            seen.t[lane] = hit.map_or(f64::INFINITY, |hit| hit.crossing.t);
+            seen.hit = seen.hit & !(1 << lane) | u32::from(hit.is_some()) << lane;
         }
-        seen.hit |= met;
     }
 
     /// Finds the surfaces where the rays hit.
     #[inline(always)]
-    fn surfaces<S: Simd>(&self, simd: S, rays: (Lanes<S>, Lanes<S>), packet: &Packet, seen: &mut Seen) {
+    fn surfaces<S: Simd>(
+        &self,
+        simd: S,
+        rays: (Lanes<S>, Lanes<S>),
+        (packet, ids): (&Packet, f64x8<S>),
+        seen: &mut Seen,
+    ) {
         let near = rays.0 + rays.1 * f64x8::simd_from(simd, seen.t);
-        let mut primitives = ByCell::new(seen.primitive, seen.hit);
-        while let Some((id, lanes)) = primitives.next() {
+        let mut primitives = ByNumber::new(ids, seen.hit);
+        while let Some((id, lanes)) = primitives.next(simd) {
             let primitive = &self.primitives()[id];
             match primitive.flat_normal() {
                 Some(normal) if lanes.count_ones() > 1 => {
@@ -319,7 +339,7 @@ impl World {
                 }
                 Some(_) | None => {
                     for lane in lanes_of(lanes) {
-                        let crossing = Crossing { t: seen.t[lane], part: seen.part[lane] };
+                        let Some(Hit { crossing, .. }) = seen.hits[lane] else { continue };
                         let surface = primitive.surface(&packet.ray(lane), &crossing);
                         set_lane(&mut seen.point, lane, surface.point);
                         set_lane(&mut seen.normal, lane, surface.normal);
@@ -340,21 +360,14 @@ impl World {
         (point + face * f64x8::simd_from(simd, seen.offset)).store(&mut seen.start);
     }
 
-    /// How the points that are seen lie to a vantage. What lies between is looked up only where the cosine is positive, as
-    /// far as `reach` times the distance, and shuts the way if it shares a bit with `mask`.
-    pub fn sights(&self, seen: &Seen, to: &Vantage, reach: f64, mask: u32, sights: &mut Sights) {
-        dispatch!(self.level(), simd => self.sights_with(simd, seen, to, (reach, mask), sights));
+    /// How the points that are seen lie to a vantage. What lies between is looked up only where the cosine is positive.
+    pub fn sights(&self, seen: &Seen, aim: &Aim<'_>, sights: &mut Sights) {
+        dispatch!(self.level(), simd => self.sights_with(simd, seen, aim, sights));
     }
 
     #[inline(always)]
-    fn sights_with<S: Simd>(
-        &self,
-        simd: S,
-        seen: &Seen,
-        to: &Vantage,
-        (reach, mask): (f64, u32),
-        sights: &mut Sights,
-    ) {
+    fn sights_with<S: Simd>(&self, simd: S, seen: &Seen, aim: &Aim<'_>, sights: &mut Sights) {
+        let Aim { to, reach, mask, cone } = *aim;
         let start = Lanes::load(simd, &seen.start);
         let away = Lanes::splat(simd, to.point()) - start;
         let squared = away.dot(away);
@@ -363,13 +376,17 @@ impl World {
         let cosine = Lanes::load(simd, &seen.face).dot(direction);
         direction.store(&mut sights.direction);
         (sights.squared_distance, sights.distance, sights.cosine) = (squared.into(), distance.into(), cosine.into());
-        let wanted = seen.hit & cosine.simd_gt(f64x8::splat(simd, 0.0)).to_bitmask() as u32;
+        let mut wanted = seen.hit & cosine.simd_gt(f64x8::splat(simd, 0.0)).to_bitmask() as u32;
+        if let Some((axis, least)) = cone {
+            let outside = (-direction.dot(Lanes::splat(simd, axis))).simd_lt(f64x8::splat(simd, least));
+            wanted &= !outside.to_bitmask() as u32;
+        }
         let (mut shut, mut unknown) = (0, 0);
         if wanted != 0 {
             let t_max = distance * f64x8::splat(simd, reach);
             let mut curved = Curved::new();
-            let mut cells = ByCell::new(cells_of(simd, -away), wanted);
-            while let Some((cell, lanes)) = cells.next() {
+            let mut cells = ByNumber::new(cells_of(simd, -away), wanted);
+            while let Some((cell, lanes)) = cells.next(simd) {
                 let Some(list) = to.listed(cell) else {
                     unknown |= lanes;
                     continue;

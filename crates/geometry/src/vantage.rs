@@ -5,7 +5,6 @@
 //! tested against these only, mostly none. After Haines and Greenberg, "The Light Buffer", IEEE CG&A 6(9), 1986.
 
 use crate::Bounds;
-use crate::packet::LANES;
 use crate::simd::lanes::Lanes;
 use durer_math::DVec3;
 use fearless_simd::{Simd, f64x8, prelude::*};
@@ -213,9 +212,9 @@ fn cell_of(d: DVec3) -> usize {
     (face * CELLS + index(t)) * CELLS + index(s)
 }
 
-/// The cells that eight directions pass through.
+/// The cells that eight directions pass through; see [`ROUND`].
 #[inline(always)]
-pub(crate) fn cells_of<S: Simd>(simd: S, d: Lanes<S>) -> [u32; LANES] {
+pub(crate) fn cells_of<S: Simd>(simd: S, d: Lanes<S>) -> f64x8<S> {
     let (ax, ay, az) = (d.x.abs(), d.y.abs(), d.z.abs());
     let along_z = az.simd_ge(ax) & az.simd_ge(ay);
     let along_y = ay.simd_ge(ax);
@@ -226,16 +225,11 @@ pub(crate) fn cells_of<S: Simd>(simd: S, d: Lanes<S>) -> [u32; LANES] {
     let positive = depth.simd_gt(zero).select(f64x8::splat(simd, 1.0), zero);
     let axis = along_z.select(f64x8::splat(simd, 4.0), along_y.select(f64x8::splat(simd, 2.0), zero));
     let rows = (axis + positive) * CELLS as f64 + whole_index(simd, t * scale);
-    let cells: [f64; LANES] = (rows * CELLS as f64 + whole_index(simd, s * scale) + ROUND).into();
-    let mut whole = [0; LANES];
-    for (whole, cell) in whole.iter_mut().zip(cells) {
-        *whole = cell.to_bits() as u32 & 0xffff;
-    }
-    whole
+    rows * CELLS as f64 + whole_index(simd, s * scale) + ROUND
 }
 
 /// Adding this rounds to a whole number; a sum of whole numbers and this then has them in its lowest bits.
-const ROUND: f64 = (3_u64 << 51) as f64;
+pub(crate) const ROUND: f64 = (3_u64 << 51) as f64;
 
 /// In which of the cells along an edge numbers from -24 to 24 are, as they are from end to end.
 #[inline(always)]
@@ -287,6 +281,7 @@ fn cells(low: f64, high: f64, near: f64, far: f64) -> Option<std::ops::RangeIncl
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::packet::LANES;
 
     fn random_numbers(seed: u64) -> impl FnMut(f64, f64) -> f64 {
         let mut state = seed;
@@ -326,10 +321,13 @@ mod tests {
                     _ => std::array::from_fn(|_| direction()),
                 };
                 let columns = [0, 1, 2].map(|axis| directions.map(|direction| direction[axis]));
-                let cells = fearless_simd::dispatch!(level.level(), simd => cells_of(simd, Lanes::load(simd, &columns)));
+                let cells: [f64; LANES] = fearless_simd::dispatch!(level.level(), simd => {
+                    cells_of(simd, Lanes::load(simd, &columns)).into()
+                });
                 for (cell, direction) in cells.into_iter().zip(directions) {
-                    assert!((cell as usize) < CELL_COUNT);
-                    same += usize::from(cell as usize == cell_of(direction));
+                    let cell = (cell - ROUND) as usize;
+                    assert!(cell < CELL_COUNT);
+                    same += usize::from(cell == cell_of(direction));
                 }
             }
             let all = 200 * LANES;

@@ -4,7 +4,7 @@
 
 use crate::compile::{CompiledScene, OPAQUE};
 use crate::visibility::SHORT_OF_LIGHT;
-use durer_geometry::{Hit, Packet, Ray, Seen, Sight, Sights, Surface};
+use durer_geometry::{Aim, Hit, LANES, Packet, Ray, Seen, Sight, Sights, Surface};
 use durer_math::DVec2;
 
 /// With more lights than this, most are looked at one by one.
@@ -15,6 +15,8 @@ const MOST_LIGHTS: usize = 16;
 pub(crate) struct Ahead {
     rays: Option<Packet>,
     seen: Seen,
+    /// What fog leaves of them, if there is any.
+    visible: [f32; LANES],
     /// For the first lights; of those without a vantage nothing is known.
     sights: Vec<Option<Sights>>,
 }
@@ -32,12 +34,16 @@ impl Ahead {
         let Some(rays) = scene.camera.rays(&scene.world, points) else { return };
         scene.world.see(eye, &rays, &mut self.seen);
         self.rays = Some(rays);
+        if let Some(fog) = &scene.fog {
+            fog.visible_each(self.seen.distances(), &mut self.visible);
+        }
         self.sights.resize_with(scene.lights.len().min(MOST_LIGHTS), || None);
-        for (sights, vantage) in self.sights.iter_mut().zip(&scene.light_vantages) {
+        let lights = scene.lights.iter().zip(&scene.light_vantages);
+        for (sights, (light, vantage)) in self.sights.iter_mut().zip(lights) {
             match vantage {
-                Some(vantage) => {
-                    let sights = sights.get_or_insert_default();
-                    scene.world.sights(&self.seen, vantage, SHORT_OF_LIGHT, OPAQUE, sights);
+                Some(to) => {
+                    let aim = Aim { to, reach: SHORT_OF_LIGHT, mask: OPAQUE, cone: light.cone() };
+                    scene.world.sights(&self.seen, &aim, sights.get_or_insert_default());
                 }
                 None => *sights = None,
             }
@@ -71,6 +77,12 @@ impl SeenAhead<'_> {
     #[inline]
     pub(crate) fn hit(&self) -> Option<Hit> {
         self.ahead.seen.hit(self.lane)
+    }
+
+    /// The part of the light from there that gets through the fog.
+    #[inline]
+    pub(crate) fn visible_through_fog(&self) -> f32 {
+        self.ahead.visible[self.lane % LANES]
     }
 
     /// The surface there.

@@ -62,6 +62,14 @@ impl Light {
         }
     }
 
+    /// For a spot, its axis and the cosine of the angle to it beyond which it gives no light.
+    pub(crate) fn cone(&self) -> Option<(DVec3, f64)> {
+        match self.kind {
+            Kind::Spot { axis, cone, .. } => Some((axis, cone.outer)),
+            Kind::Point { .. } | Kind::Directional { .. } => None,
+        }
+    }
+
     /// What arrives at a point; `None` where the light does not shine.
     #[inline]
     pub(crate) fn arriving(&self, at: DVec3) -> Option<Arriving> {

@@ -284,13 +284,13 @@ fn render_tile<A: Antialias>(scene: &CompiledScene, region: Region, antialias: &
     let mut first_hits = FirstHits::default();
     for part in FirstHits::parts(scene, region) {
         first_hits.find(scene, antialias, part);
-        for (index, (x, y)) in part.pixel_places().enumerate() {
+        part.pixel_places().enumerate().for_each(|(index, (x, y))| {
             let known = first_hits.of_pixel(index);
             let pixel = render_pixel(scene, (&Whitted, antialias), (x, y), known, &mut tile.account);
             let color = if pixel.has_bad_samples { without_bad_samples(scene, antialias, (x, y)) } else { pixel.color };
             tile.pixels.push(color);
             tile.depths.push(pixel.depth);
-        }
+        });
     }
     tile
 }

@@ -59,7 +59,7 @@ impl<O: Observer> Path<'_, O> {
     fn trace(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb, known: Known<'_>) {
         self.observer.ray_begins(kind, depth, ray, weight);
         let met = find(self.scene, ray, known, self.observer);
-        let weight = self.along(met.length, weight);
+        let weight = self.along(met.length, weight, known.seen());
         match met.hit {
             None => self.add(Source::Background, weight * background(&self.scene.background, ray.direction)),
             Some(hit) => {
@@ -87,10 +87,13 @@ impl<O: Observer> Path<'_, O> {
     }
 
     /// What the segment does to the light that comes along it; gives the weight of what is at its far end.
-    fn along(&mut self, length: f64, weight: Rgb) -> Rgb {
+    fn along(&mut self, length: f64, weight: Rgb, seen: Option<SeenAhead<'_>>) -> Rgb {
         let mut weight = weight;
         if let Some(fog) = &self.scene.fog {
-            let veil = fog.veil(length);
+            let veil = match seen {
+                Some(seen) => fog.veil_of(seen.visible_through_fog()),
+                None => fog.veil(length),
+            };
             self.add(Source::Fog, weight * veil.color * (1.0 - veil.visible));
             weight = weight * veil.visible;
         }
