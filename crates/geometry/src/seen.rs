@@ -40,6 +40,7 @@ pub struct Sights {
     cosine: [f64; LANES],
     open: u32,
     shut: u32,
+    wanted: u32,
 }
 
 /// How a point on a surface lies to another point.
@@ -112,6 +113,7 @@ impl Default for Sights {
             cosine: [0.0; LANES],
             open: 0,
             shut: 0,
+            wanted: 0,
         }
     }
 }
@@ -121,6 +123,11 @@ impl Seen {
     #[inline]
     pub fn hit(&self, lane: usize) -> Option<Hit> {
         self.hits[lane % LANES]
+    }
+
+    /// Which rays hit something, one bit each.
+    pub fn lanes(&self) -> u32 {
+        self.hit
     }
 
     /// How far away that is, for all rays; infinite where there is nothing.
@@ -141,6 +148,27 @@ impl Seen {
 }
 
 impl Sights {
+    /// From which points it was asked what lies between, one bit each: of surfaces on the side of the other point, within the
+    /// cone if there is one.
+    pub fn wanted(&self) -> u32 {
+        self.wanted
+    }
+
+    /// Those from which the way is open.
+    pub fn open(&self) -> u32 {
+        self.open
+    }
+
+    /// Those of which it is not known whether it is.
+    pub fn unknown(&self) -> u32 {
+        self.wanted & !(self.open | self.shut)
+    }
+
+    /// The cosines for all points.
+    pub fn cosines(&self) -> &[f64; LANES] {
+        &self.cosine
+    }
+
     /// How one of the points lies.
     #[inline]
     pub fn get(&self, lane: usize) -> Sight {
@@ -215,7 +243,7 @@ impl World {
     /// Eight rays: in the directions `forward + right · across + up · up`, of which the first `count` are wanted.
     pub fn rays_of(&self, pinhole: &Pinhole, across: &[f64; LANES], up: &[f64; LANES], count: usize) -> Packet {
         let mut direction = Columns::default();
-        dispatch!(self.level(), simd => {
+        dispatch!(self.simd(), simd => {
             let right = Lanes::splat(simd, pinhole.right) * f64x8::simd_from(simd, *across);
             let up = Lanes::splat(simd, pinhole.up) * f64x8::simd_from(simd, *up);
             let towards = Lanes::splat(simd, pinhole.forward) + (right + up);
@@ -227,7 +255,7 @@ impl World {
 
     /// What the rays of a packet see, which all start at a vantage.
     pub fn see(&self, from: &Vantage, packet: &Packet, seen: &mut Seen) {
-        dispatch!(self.level(), simd => self.see_with(simd, from, packet, seen));
+        dispatch!(self.simd(), simd => self.see_with(simd, from, packet, seen));
     }
 
     #[inline(always)]
@@ -362,7 +390,7 @@ impl World {
 
     /// How the points that are seen lie to a vantage. What lies between is looked up only where the cosine is positive.
     pub fn sights(&self, seen: &Seen, aim: &Aim<'_>, sights: &mut Sights) {
-        dispatch!(self.level(), simd => self.sights_with(simd, seen, aim, sights));
+        dispatch!(self.simd(), simd => self.sights_with(simd, seen, aim, sights));
     }
 
     #[inline(always)]
@@ -408,7 +436,7 @@ impl World {
             }
         }
         sights.open = wanted & !(shut | unknown);
-        sights.shut = shut;
+        (sights.shut, sights.wanted) = (shut, wanted);
     }
 
     /// Which lanes something that is not flat shuts, and where something else is in the way.

@@ -62,7 +62,7 @@ impl World {
 
     /// The instruction set of its searches.
     #[inline(always)]
-    pub(crate) fn level(&self) -> Level {
+    pub fn simd(&self) -> Level {
         self.level
     }
 

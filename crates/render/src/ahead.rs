@@ -2,10 +2,14 @@
 //!
 //! It changes nothing but the speed: for a ray that nobody looked ahead for, the integrator finds the same by itself.
 
+mod plain;
+
 use crate::compile::{CompiledScene, OPAQUE};
 use crate::visibility::SHORT_OF_LIGHT;
 use durer_geometry::{Aim, Hit, LANES, Packet, Ray, Seen, Sight, Sights, Surface};
 use durer_math::DVec2;
+use plain::Plain;
+pub(crate) use plain::Sum;
 
 /// With more lights than this, most are looked at one by one.
 const MOST_LIGHTS: usize = 16;
@@ -17,6 +21,7 @@ pub(crate) struct Ahead {
     seen: Seen,
     /// What fog leaves of them, if there is any.
     visible: [f32; LANES],
+    plain: Plain,
     /// For the first lights; of those without a vantage nothing is known.
     sights: Vec<Option<Sights>>,
 }
@@ -48,6 +53,7 @@ impl Ahead {
                 None => *sights = None,
             }
         }
+        self.plain.find(scene, &self.seen, &self.sights, &self.visible);
     }
 
     /// What one of the rays sees.
@@ -71,6 +77,12 @@ impl SeenAhead<'_> {
             Some(rays) => rays.ray(self.lane),
             None => scene.camera.ray(at),
         }
+    }
+
+    /// All that arrives along it, if that is known already.
+    #[inline]
+    pub(crate) fn sum(&self) -> Option<Sum> {
+        self.ahead.plain.sum(self.lane)
     }
 
     /// What it hits first.

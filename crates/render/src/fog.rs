@@ -48,6 +48,11 @@ impl Fog {
         })
     }
 
+    /// Its color.
+    pub(crate) fn color(&self) -> Rgb {
+        self.color
+    }
+
     /// The fog of which it is known what it leaves.
     #[inline]
     pub(crate) fn veil_of(&self, visible: f32) -> Veil {

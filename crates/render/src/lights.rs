@@ -62,6 +62,14 @@ impl Light {
         }
     }
 
+    /// What arrives, if that is the same everywhere.
+    pub(crate) fn everywhere(&self) -> Option<Rgb> {
+        match self.kind {
+            Kind::Point { falloff: Falloff::None, .. } | Kind::Directional { .. } => Some(self.power),
+            Kind::Point { .. } | Kind::Spot { .. } => None,
+        }
+    }
+
     /// For a spot, its axis and the cosine of the angle to it beyond which it gives no light.
     pub(crate) fn cone(&self) -> Option<(DVec3, f64)> {
         match self.kind {

@@ -159,6 +159,23 @@ fn smooth_normal(scene: &CompiledScene, surface: &Surface, hit: &Hit, face: DVec
     if away < 0.0 { Some(normal) } else { (normal - direction * away).try_normalize() }
 }
 
+/// The color at a hit of a primitive that has no details, of this material.
+#[inline]
+pub(crate) fn color_at(
+    scene: &CompiledScene,
+    hit: &Hit,
+    surface: impl FnOnce() -> Surface,
+    material: &Material,
+) -> Rgb {
+    match material.color {
+        Paint::Color(color) => color,
+        Paint::Texture(_) => {
+            let object = &scene.objects[hit.primitive as usize];
+            scene.textures.color(material.color, &Textured { scene, object, surface: &surface(), hit })
+        }
+    }
+}
+
 /// How much of the surface is there at a hit.
 pub(crate) fn opacity_at(scene: &CompiledScene, hit: &Hit, surface: &Surface) -> Rgb {
     let object = &scene.objects[hit.primitive as usize];

@@ -30,6 +30,11 @@ impl Integrator for Whitted {
         _: &Sampler,
         observer: &mut O,
     ) -> Rgb {
+        if let Some(sum) = known.seen().and_then(|seen| seen.sum())
+            && observer.sum_is_enough(sum.shadow_rays)
+        {
+            return sum.color;
+        }
         let media = if scene.media_at_eye.is_empty() { Media::default() } else { Media::around(scene, ray) };
         let mut path = Path { scene, media, sum: Rgb::BLACK, observer };
         path.trace(RayKind::Eye, 1, ray, Rgb::WHITE, known);
