@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use crate::commands::{check, compare, completions, explain, heatmap, info, man, render, resume};
+use crate::commands::{check, compare, completions, develop, explain, heatmap, info, man, merge, render, resume};
 use crate::exit::EXIT_CODES;
 use clap::{Parser, Subcommand};
 
@@ -26,11 +26,13 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     Render(render::Arguments),
     Resume(resume::Arguments),
+    Merge(merge::Arguments),
     Check(check::Arguments),
     Info(info::Arguments),
     Explain(explain::Arguments),
     Heatmap(heatmap::Arguments),
     Compare(compare::Arguments),
+    Develop(develop::Arguments),
     /// Print the JSON Schema of scene files
     #[command(after_help = "Example:\n  durer schema > scene.schema.json\n\n\
         Editors complete and check scenes whose first line is\n  # yaml-language-server: $schema=scene.schema.json")]

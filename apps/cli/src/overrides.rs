@@ -1,11 +1,15 @@
 //! Settings of the scene that the command line may change. The changed scene is checked again, so limits hold.
 
+mod light;
+
 use crate::exit::Failure;
+use crate::output;
 use clap::builder::RangedI64ValueParser;
 use clap::{Args, ValueEnum};
 use durer::CheckedScene;
 use durer::imaging::Transfer;
-use durer::scene::{Antialias, Picture, PixelFilter, Problem, Scene, Step, Trees};
+use durer::scene::{Antialias, Integrator, Picture, PixelFilter, Problem, Scene, Step, Trees};
+use light::Light;
 
 /// Settings that win over those of the scene file.
 #[derive(Args, Debug, Default)]
@@ -14,7 +18,10 @@ pub(crate) struct Overrides {
     #[command(flatten)]
     size: Size,
 
-    /// Longest chain of rays, from 1 (the eye's rays alone) to 100
+    #[command(flatten)]
+    light: Light,
+
+    /// Longest chain of rays or path of light, from 1 (the eye's rays alone) to 100
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100), allow_negative_numbers = true)]
     max_depth: Option<u32>,
 
@@ -74,15 +81,33 @@ enum TreesArg {
 impl Overrides {
     /// The scene with these settings in place of its own.
     pub(crate) fn apply(&self, scene: CheckedScene) -> Result<CheckedScene, Failure> {
+        let known = scene.remarks();
         let mut scene = scene.into_scene();
         self.change(&mut scene);
-        scene.check().map_err(|problems| Failure::usage(self.describe(&problems)))
+        let checked = scene.check().map_err(|problems| Failure::usage(self.describe(&problems)))?;
+        if self.light.chooses_integrator() {
+            // Those that the scene itself gave rise to have been told when it was loaded.
+            for remark in checked.remarks().iter().filter(|remark| !known.contains(remark)) {
+                let help = remark.help.as_ref().map_or(String::new(), |help| format!(" ({help})"));
+                output::warning(&format!("{}{help}", remark.message));
+            }
+        }
+        Ok(checked)
     }
 
     fn change(&self, scene: &mut Scene) {
         let Scene { picture, render, .. } = scene;
         (picture.width, picture.height) = self.size.of(picture);
-        render.max_depth = self.max_depth.unwrap_or(render.max_depth);
+        self.light.change_render(render);
+        self.light.change_picture(picture);
+        match &mut render.integrator {
+            Integrator::Path { max_depth, clamp: _ } => *max_depth = self.max_depth.unwrap_or(*max_depth),
+            Integrator::Whitted
+            | Integrator::AmbientOcclusion { .. }
+            | Integrator::Normals
+            | Integrator::Depth
+            | Integrator::Uv => render.max_depth = self.max_depth.unwrap_or(render.max_depth),
+        }
         render.antialias = self.antialias.unwrap_or(render.antialias);
         render.filter = self.filter.unwrap_or(render.filter);
         render.trees = match self.trees {
@@ -118,6 +143,7 @@ impl Overrides {
         match (field(0), field(1)) {
             ("picture", "height") if self.size.height.is_none() => "--width, from which the height follows",
             ("picture", "width") if self.size.width.is_none() => "--height, from which the width follows",
+            ("picture", "exposure") => "--exposure",
             ("picture", "height") => "--height",
             ("picture", "width") => "--width",
             ("picture", _) => match (self.size.width, self.size.height) {
@@ -127,6 +153,11 @@ impl Overrides {
             },
             ("render", "max_depth") => "--max-depth",
             ("render", "filter") => "--filter",
+            ("render", "integrator") => "--integrator",
+            ("render", "samples") => "--samples",
+            ("render", "noise") => "--noise",
+            ("render", "time") => "--time",
+            ("render", "light_samples") => "--light-samples",
             ("render", _) => "--antialias",
             _ => "the scene with these options",
         }

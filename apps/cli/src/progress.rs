@@ -79,16 +79,16 @@ pub(crate) struct Bar<'a> {
 /// How far rendering has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reached {
-    /// Finished pixels.
+    /// Finished pixels, or samples.
     pub(crate) finished: u64,
-    /// Pixels in all.
+    /// How many there will be in all.
     pub(crate) total: u64,
     /// Seconds to go; `None` before there is something to go by.
     pub(crate) remaining: Option<f64>,
 }
 
 impl Bar<'_> {
-    /// A bar, with so many pixels finished already.
+    /// A bar, with so many pixels finished or samples taken already.
     pub(crate) fn new(stop: &AtomicBool, already: u64, show: Show) -> Bar<'_> {
         let bar = ProgressBar::with_draw_target(None, show.target());
         let pace = Arc::new(Mutex::new(Pace::new(already)));
@@ -113,7 +113,7 @@ impl Bar<'_> {
         self.bar.finish_and_clear();
     }
 
-    /// Seconds since the bar was made, and seconds to go until `of` pixels are finished.
+    /// Seconds since the bar was made, and seconds to go until `of` is done.
     pub(crate) fn times(&self, of: u64) -> (f64, Option<f64>) {
         let elapsed = self.began.elapsed().as_secs_f64();
         (elapsed, self.pace.lock().unwrap_or_else(PoisonError::into_inner).remaining(elapsed, of))
@@ -121,23 +121,27 @@ impl Bar<'_> {
 }
 
 impl Progress for Bar<'_> {
-    fn finished(&self, pixels: u64, of: u64) {
+    fn finished(&self, done: u64, of: u64) {
         let elapsed = self.began.elapsed().as_secs_f64();
-        self.pace.lock().unwrap_or_else(PoisonError::into_inner).note(elapsed, pixels);
+        self.pace.lock().unwrap_or_else(PoisonError::into_inner).note(elapsed, done);
         if !self.bar.is_hidden() {
             self.bar.set_length(of);
-            self.bar.set_position(pixels);
+            self.bar.set_position(done);
         }
         let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
         if told.is_none_or(|told| told.elapsed() >= JSON_BEAT) {
             *told = Some(Instant::now());
             let remaining = self.times(of).1;
-            self.show.tell("rendering", Some(Reached { finished: pixels, total: of, remaining }));
+            self.show.tell("rendering", Some(Reached { finished: done, total: of, remaining }));
         }
     }
 
     fn stop(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
+    }
+
+    fn elapsed(&self) -> Option<f64> {
+        Some(self.began.elapsed().as_secs_f64())
     }
 }
 

@@ -42,12 +42,23 @@ pub(crate) fn format_of(path: &Path) -> Result<FileFormat, Failure> {
     FileFormat::from_path(path).map_err(|error| Failure::usage(format!("{}: {error}", path.display())))
 }
 
+/// True if a file is to hold a film, with all that it takes to add samples to it: `part.film`.
+pub(crate) fn is_film(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("film"))
+}
+
 /// The usual options of a format, and the name of the program.
 pub(crate) fn usual(format: FileFormat) -> EncodeOptions {
     EncodeOptions { metadata: vec![provenance::software()], ..EncodeOptions::new(format) }
 }
 
 impl FileOptions {
+    /// Fails if there is any option, for a file that is no picture.
+    pub(crate) fn of_no_picture(&self) -> Result<(), Failure> {
+        let option = self.bit_depth.map(|_| "--bit-depth").or(self.quality.map(|_| "--quality"));
+        option.map_or(Ok(()), |option| Err(Failure::usage(format!("{option}: a film file has no such option"))))
+    }
+
     /// How to encode in `format`; fails if an option belongs to another one.
     pub(crate) fn encode_options(&self, format: FileFormat) -> Result<EncodeOptions, Failure> {
         let mut options = usual(format);

@@ -2,7 +2,8 @@
 
 use crate::whole::{self, temporary_beside};
 use durer_imaging::{
-    Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, FileFacts, Image, about, decode, encode,
+    BEAUTY, Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, FileFacts, FileFormat, Image, LayerFacts,
+    Layers, Transfer, about, decode, decode_layers, encode, encode_layers, encode_with_alpha, layer_facts,
 };
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -102,12 +103,29 @@ impl PictureFile {
     }
 
     /// Writes the picture and gives it its name; gives the number of bytes.
-    pub fn write(mut self, image: &Image, options: &EncodeOptions) -> Result<usize, WriteError> {
+    pub fn write(self, image: &Image, options: &EncodeOptions) -> Result<usize, WriteError> {
         let bytes = encode(image, options).map_err(WriteError::Encode)?;
+        self.write_bytes(&bytes)
+    }
+
+    /// As [`PictureFile::write`], of a picture of which only a part is there; see [`encode_with_alpha`].
+    pub fn write_with_alpha(self, image: &Image, alpha: &[f32], options: &EncodeOptions) -> Result<usize, WriteError> {
+        let bytes = encode_with_alpha(image, alpha, options).map_err(WriteError::Encode)?;
+        self.write_bytes(&bytes)
+    }
+
+    /// Writes layers, as EXR whatever the file is called, and gives the file its name; gives the number of bytes.
+    pub fn write_layers(self, layers: Layers, options: &EncodeOptions) -> Result<usize, WriteError> {
+        let bytes = encode_layers(layers, options).map_err(WriteError::Encode)?;
+        self.write_bytes(&bytes)
+    }
+
+    /// Writes these bytes and gives the file its name; gives their number.
+    pub fn write_bytes(mut self, bytes: &[u8]) -> Result<usize, WriteError> {
         // What was reserved is written over first and cut off then, so that no one else can take the room; and the file
         // stays open, and so locked, until it has its name.
         let written = match &mut self.file {
-            Some(file) => file.write_all(&bytes).and_then(|()| file.set_len(bytes.len() as u64)),
+            Some(file) => file.write_all(bytes).and_then(|()| file.set_len(bytes.len() as u64)),
             None => Ok(()),
         };
         let synced = written.and_then(|()| self.file.as_ref().map_or(Ok(()), File::sync_all));
@@ -134,6 +152,32 @@ fn missing_folder(path: &Path) -> Option<&Path> {
 pub fn read_picture(path: &Path, limits: &DecodeLimits) -> Result<Bitmap, ReadError> {
     let bytes = fs::read(path).map_err(|error| ReadError::Io(path.to_owned(), error))?;
     decode(&bytes, limits).map_err(|error| ReadError::Decode(path.to_owned(), error))
+}
+
+/// Reads the layers of a picture file, or `only` that of this name; without such a layer the picture comes without layers. In
+/// files other than EXR the beauty is the only one.
+pub fn read_layers(path: &Path, only: Option<&str>, limits: &DecodeLimits) -> Result<Layers, ReadError> {
+    let bytes = fs::read(path).map_err(|error| ReadError::Io(path.to_owned(), error))?;
+    let wrong = |error| ReadError::Decode(path.to_owned(), error);
+    if about(&bytes).map_err(wrong)?.format == FileFormat::Exr {
+        return decode_layers(&bytes, only, limits).map_err(wrong);
+    }
+    let mut layers = Layers::of_bitmap(&decode(&bytes, limits).map_err(wrong)?, Transfer::Srgb);
+    layers.layers.retain(|layer| only.is_none_or(|only| only == layer.name));
+    Ok(layers)
+}
+
+/// The layers that a picture file has.
+pub fn picture_layers(path: &Path) -> Result<Vec<LayerFacts>, ReadError> {
+    let bytes = fs::read(path).map_err(|error| ReadError::Io(path.to_owned(), error))?;
+    let wrong = |error| ReadError::Decode(path.to_owned(), error);
+    let FileFacts { format, width, height, .. } = about(&bytes).map_err(wrong)?;
+    match format {
+        FileFormat::Exr => layer_facts(&bytes).map_err(wrong),
+        FileFormat::Png | FileFormat::Jpeg | FileFormat::Hdr | FileFormat::Pfm => {
+            Ok(vec![LayerFacts { name: BEAUTY.to_owned(), width, height, channels: Vec::new() }])
+        }
+    }
 }
 
 /// What the header of a picture file says.

@@ -18,6 +18,7 @@
 mod admit;
 mod checkpoint;
 mod files;
+mod film_layers;
 mod scene_hash;
 mod whole;
 
@@ -32,12 +33,14 @@ pub use durer_imaging as imaging;
 pub use durer_math as math;
 pub use durer_render::{
     BadSample, Bounds, CompiledScene, Contribution, Element, Film, FilmParts, GeometryMemory, HeatMap, HitExplanation,
-    HoleExplanation, LightExplanation, NotTraced, PixelExplanation, Progress, RayCounts, RayExplanation, RayKind,
-    Region, RenderError, RenderOptions, SampleExplanation, Scattering, SimdLevel, Source, Weighing, compile,
-    compile_for, explain, heatmap, memory_needed, render, render_on, with_threads,
+    HoleExplanation, LightExplanation, MergeError, NotTraced, Part, PixelExplanation, Progress, RayCounts,
+    RayExplanation, RayKind, Region, RenderError, RenderOptions, SampleExplanation, SampleRange, Scattering, SeenFirst,
+    SimdLevel, Source, Sums, Weighing, compile, compile_for, explain, heatmap, memory_needed, render, render_on,
+    seen_first, with_threads,
 };
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};
-pub use files::{PictureFile, ReadError, WriteError, picture_facts, read_picture};
+pub use files::{PictureFile, ReadError, WriteError, picture_facts, picture_layers, read_layers, read_picture};
+pub use film_layers::{FilmLayer, film_layers};
 pub use scene_hash::SceneHash;
 pub use whole::{temporary_beside, write_whole};

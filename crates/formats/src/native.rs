@@ -27,6 +27,7 @@ mod reference;
 mod schema;
 mod settings;
 pub(crate) mod suggest;
+mod surfaces;
 mod syntax;
 mod tables;
 mod textures;
@@ -75,6 +76,13 @@ fn load_tree(text: &str, assets: &dyn Assets, limits: &Limits) -> (Option<Checke
                 let span = root.get("objects").map_or(Span::default(), |(key, _)| key.span);
                 complaints.push(Complaint::warning(span, "nothing to see: the scene has no objects"));
             }
+            // What is not there because it could not be read is not missed.
+            if !complaints.iter().any(Complaint::is_error) {
+                for remark in scene.remarks() {
+                    let span = place::span_of(&remark.place, &root, &decoder);
+                    complaints.push(Complaint::warning(span, remark.message).maybe_help(remark.help));
+                }
+            }
             let usable = !complaints.iter().any(Complaint::is_error);
             (usable.then_some(scene), complaints)
         }
@@ -104,7 +112,8 @@ mod tests {
     use super::record::{Choice, KindAbout};
     use super::*;
     use crate::{NoAssets, load_str};
-    use durer_scene::{Antialias, Fog, LightKind, Pattern};
+    use durer_imaging::ToneMapping;
+    use durer_scene::{Antialias, Fog, Integrator, LightKind, MetalName, Pattern};
 
     #[track_caller]
     fn assert_loads(text: &str) {
@@ -125,11 +134,17 @@ mod tests {
         each(Pattern::kinds(), &|example| format!("textures:\n  a:\n    {example}"));
         each(Antialias::kinds(), &|example| format!("render:\n  {example}"));
         each(Fog::kinds(), &|example| example.to_owned());
+        each(Integrator::kinds(), &|example| format!("render:\n  {example}"));
+        each(ToneMapping::kinds(), &|example| format!("picture:\n  {example}"));
+        each(surfaces::Physical::kinds(), &|example| format!("materials:\n  a:\n    {example}"));
+        each(MetalName::kinds(), &|example| format!("materials: {{a: {{metal: {{{example}}}}}}}"));
         for (_, _, example) in transform::STEPS {
             assert_loads(&format!("objects:\n  - sphere:\n      transform:\n        - {example}"));
         }
-        for block in reference_markdown().split("```yaml\ncamera").skip(1) {
-            assert_loads(&format!("camera{}", block.split("```").next().unwrap_or_default()));
+        for start in ["camera", "materials"] {
+            for block in reference_markdown().split(&format!("```yaml\n{start}")).skip(1) {
+                assert_loads(&format!("{start}{}", block.split("```").next().unwrap_or_default()));
+            }
         }
     }
 
@@ -137,6 +152,6 @@ mod tests {
     fn schema_defaults_are_json_values() {
         let schema = json_schema();
         assert_eq!(schema["properties"]["picture"]["properties"]["width"]["default"], 640);
-        assert_eq!(schema["$defs"]["material"]["properties"]["shininess"]["default"], 40);
+        assert_eq!(schema["$defs"]["material"]["anyOf"][0]["properties"]["shininess"]["default"], 40);
     }
 }

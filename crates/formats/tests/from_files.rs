@@ -142,7 +142,7 @@ objects:
   - mesh: {file: flag.obj, material: gold}
   - import: {file: flag.obj}";
     let scene = kept(text);
-    let colors: Vec<Paint> = scene.materials.iter().map(|material| material.color).collect();
+    let colors: Vec<Paint> = scene.materials.iter().map(|material| material.as_classic().unwrap().color).collect();
     let expected = [colors[0], Paint::Color(Rgb::WHITE), red(), blue(), Paint::Color(Rgb::BLACK)];
     assert_eq!(colors, expected);
     let parts: Vec<_> = mesh(&scene.objects[1]).data.parts.iter().map(|part| part.material).collect();

@@ -84,14 +84,14 @@ fn a_scene_imports_all_that_a_file_has() {
     assert_eq!(mesh.data.uvs, [[0.0, 1.0], [1.0, 1.0], [0.0, 0.0]]);
 
     let material = &scene.materials[flag.material.unwrap().0 as usize];
-    let Paint::Texture(texture) = material.color else { panic!("{material:?}") };
+    let Paint::Texture(texture) = material.paints()[0] else { panic!("{material:?}") };
     let Pattern::Image(image) = &scene.textures[texture.0 as usize].pattern else { panic!() };
     assert_eq!(scene.images[image.image.0 as usize].file, "models/cloth red.pfm");
 
     let lamp = &import.lights[0];
-    assert_eq!((lamp.name.as_deref(), lamp.intensity, lamp.color), (Some("lamp"), 1.0, Rgb::WHITE));
+    assert_eq!((lamp.name.as_deref(), lamp.classic_intensity(), lamp.color), (Some("lamp"), 1.0, Rgb::WHITE));
     let position = DVec3::new(1.0, 101.0, 3.0);
-    assert_eq!(lamp.kind, LightKind::Point { position, falloff: Falloff::InverseSquare });
+    assert_eq!(lamp.kind, LightKind::Point { position, falloff: Falloff::InverseSquare, radius: 0.0 });
     let camera = import.camera.as_ref().unwrap();
     assert_eq!((camera.position, camera.look_at), (DVec3::new(0.0, 100.0, 5.0), DVec3::new(0.0, 100.0, 4.0)));
     assert_eq!(camera.projection, Projection::Orthographic { height: 3.0 });

@@ -42,7 +42,7 @@ fn a_model_becomes_a_scene_with_all_that_lies_beside_it() {
     let scene = loaded.scene.scene();
     let part = &mesh(scene).parts[0];
     let material = &scene.materials[part.material.unwrap().0 as usize];
-    assert!(matches!(material.color, Paint::Texture(_)));
+    assert!(matches!(material.as_classic().unwrap().color, Paint::Texture(_)));
     assert_eq!((scene.images.len(), scene.images[0].file.as_str()), (1, "textures/wood.pfm"));
     assert!(scene.camera.is_some() && scene.objects.len() == 2);
     assert!(scene.lights.iter().all(|light| matches!(light.kind, LightKind::Directional { .. })));

@@ -1,7 +1,7 @@
 //! What is written reads back as the same scene, to the bit.
 
 use durer_formats::{Assets, Limits, NoAssets, load_str, to_yaml};
-use durer_imaging::{DecodeLimits, Transfer, decode};
+use durer_imaging::{DecodeLimits, ToneMapping, Transfer, decode};
 use durer_math::{DVec2, DVec3, Rgb};
 use durer_scene::*;
 use proptest::collection::vec;
@@ -190,17 +190,19 @@ fn pattern(before: u32) -> BoxedStrategy<Pattern> {
     .boxed()
 }
 
-fn material() -> BoxedStrategy<Material> {
-    let attenuation = ([0.1_f32..1.0, 0.1_f32..1.0, 0.1_f32..1.0], size())
-        .prop_map(|(color, distance)| Attenuation { color: color.into(), distance });
+fn attenuation() -> BoxedStrategy<Attenuation> {
+    ([0.1_f32..1.0, 0.1_f32..1.0, 0.1_f32..1.0], size())
+        .prop_map(|(color, distance)| Attenuation { color: color.into(), distance })
+        .boxed()
+}
+
+fn classic() -> BoxedStrategy<MaterialKind> {
     let parts = (paint(3), part(), part(), color(), 0_f32..500.0);
-    let clear = (color(), color(), prop::option::of(0.5..2.5), any::<bool>(), prop::option::of(attenuation));
-    (parts, clear, (color(), paint(3)))
-        .prop_map(|((color, ambient, diffuse, specular, shininess), clear, (emission, opacity))| {
+    let clear = (color(), color(), prop::option::of(0.5..2.5), any::<bool>(), prop::option::of(attenuation()));
+    (parts, clear)
+        .prop_map(|((color, ambient, diffuse, specular, shininess), clear)| {
             let (reflection, transparency, ior, fresnel, attenuation) = clear;
-            let name = None;
-            Material {
-                name,
+            MaterialKind::Classic(Classic {
                 color,
                 ambient,
                 diffuse,
@@ -211,31 +213,125 @@ fn material() -> BoxedStrategy<Material> {
                 ior,
                 fresnel,
                 attenuation,
-                emission,
-                opacity,
-            }
+            })
         })
+        .boxed()
+}
+
+/// A number from 0 to 1, or a texture.
+fn amount() -> BoxedStrategy<Paint> {
+    prop_oneof![part().prop_map(|gray| Paint::Color(Rgb::gray(gray))), paint(3).prop_filter("no color", is_texture)]
+        .boxed()
+}
+
+fn is_texture(paint: &Paint) -> bool {
+    matches!(paint, Paint::Texture(_))
+}
+
+fn physical() -> BoxedStrategy<MaterialKind> {
+    let metals = vec![MetalName::Aluminum, MetalName::Brass, MetalName::Gold, MetalName::Titanium];
+    let conductor = prop_oneof![
+        prop::sample::select(metals).prop_map(Conductor::Named),
+        (1_f32..4.0, color()).prop_map(|(eta, k)| Conductor::Index { eta: Rgb::gray(eta), k }),
+        paint(3).prop_map(Conductor::Reflectance),
+    ];
+    let glass = (1_f64..2.5, amount(), paint(3), prop::option::of(attenuation()), -3..3, any::<bool>());
+    prop_oneof![
+        (paint(3), amount()).prop_map(|(color, roughness)| MaterialKind::Matte(Matte { color, roughness })),
+        (conductor, amount(), amount(), amount()).prop_map(|(conductor, roughness, anisotropy, rotation)| {
+            MaterialKind::Metal(Metal { conductor, roughness, anisotropy, rotation })
+        }),
+        glass.prop_map(|(ior, roughness, color, attenuation, priority, thin)| {
+            MaterialKind::Glass(Glass { ior, roughness, color, attenuation, priority, thin })
+        }),
+        (paint(3), 1_f64..2.5, amount()).prop_map(|(color, ior, roughness)| MaterialKind::Plastic(Plastic {
+            color,
+            ior,
+            roughness
+        })),
+        paint(3).prop_map(|color| MaterialKind::Mirror(Mirror { color })),
+        principled(),
+    ]
+    .boxed()
+}
+
+fn principled() -> BoxedStrategy<MaterialKind> {
+    let base = (paint(3), amount(), amount(), 1_f64..2.5, amount(), paint(3));
+    let clear = (amount(), any::<bool>(), prop::option::of(attenuation()));
+    let above = (amount(), amount(), paint(3), amount(), amount(), amount());
+    (base, clear, above)
+        .prop_map(|(base, (transmission, thin, attenuation), above)| {
+            let (base_color, metallic, roughness, ior, specular, specular_color) = base;
+            let (clearcoat, clearcoat_roughness, sheen_color, sheen_roughness, anisotropy, anisotropy_rotation) = above;
+            MaterialKind::Principled(Box::new(Principled {
+                base_color,
+                metallic,
+                roughness,
+                ior,
+                specular,
+                specular_color,
+                transmission,
+                thin,
+                attenuation,
+                clearcoat,
+                clearcoat_roughness,
+                sheen_color,
+                sheen_roughness,
+                anisotropy,
+                anisotropy_rotation,
+            }))
+        })
+        .boxed()
+}
+
+fn material() -> BoxedStrategy<Material> {
+    let sides = prop::sample::select(vec![Sides::Both, Sides::Front]);
+    let emission = (paint(3), prop_oneof![Just(1.0), 0_f32..9.0], sides)
+        .prop_map(|(color, strength, sides)| Emission { color, strength, sides });
+    let normal_map = (paint(3), prop_oneof![Just(1.0), part()])
+        .prop_map(|(texture, strength)| Relief::NormalMap(NormalMap { texture, strength }));
+    let bump = (paint(3), -1_f64..1.0).prop_map(|(height, size)| Relief::Bump(Bump { height, size }));
+    let relief = prop::option::of(prop_oneof![normal_map, bump]);
+    (prop_oneof![classic(), physical()], emission, paint(3), relief)
+        .prop_map(|(kind, emission, opacity, relief)| Material { name: None, kind, emission, opacity, relief })
         .boxed()
 }
 
 fn light() -> BoxedStrategy<Light> {
     let falloff = || prop::sample::select(vec![Falloff::None, Falloff::InverseSquare]);
     let near = || point().prop_map(|p| p % 1e3);
+    let radius = || prop_oneof![Just(0.0), size()];
     let kind = prop_oneof![
-        (point(), falloff()).prop_map(|(position, falloff)| LightKind::Point { position, falloff }),
-        (near(), direction(), 1.0..180.0, prop_oneof![Just(1.0), 0.0..1.0], falloff()).prop_map(
-            |(position, by, edge, inner, falloff)| LightKind::Spot {
+        (point(), falloff(), radius()).prop_map(|(position, falloff, radius)| LightKind::Point {
+            position,
+            falloff,
+            radius
+        }),
+        (near(), direction(), 1.0..180.0, prop_oneof![Just(1.0), 0.0..1.0], falloff(), radius()).prop_map(
+            |(position, by, edge, inner, falloff, radius)| LightKind::Spot {
                 position,
                 target: position + by,
                 half_angle_degrees: edge,
                 inner_half_angle_degrees: edge * inner,
                 falloff,
+                radius,
             }
         ),
         direction().prop_map(|direction| LightKind::Directional { direction }),
     ];
-    (prop::option::of(text()), color(), 0_f32..9.0, kind)
-        .prop_map(|(name, color, intensity, kind)| Light { name, color, intensity, kind })
+    (prop::option::of(text()), color(), 0_f32..9.0, 0..3, kind)
+        .prop_map(|(name, color, amount, unit, kind)| {
+            let physical = match kind {
+                LightKind::Directional { .. } => Strength::Irradiance(amount),
+                LightKind::Point { falloff: Falloff::None, .. } | LightKind::Spot { falloff: Falloff::None, .. } => {
+                    Strength::Classic(amount)
+                }
+                LightKind::Point { .. } | LightKind::Spot { .. } if unit == 1 => Strength::Power(amount),
+                LightKind::Point { .. } | LightKind::Spot { .. } => Strength::RadiantIntensity(amount),
+            };
+            let strength = if unit == 0 { Strength::Classic(amount) } else { physical };
+            Light { name, color, strength, kind }
+        })
         .boxed()
 }
 
@@ -245,12 +341,23 @@ fn camera() -> BoxedStrategy<Camera> {
         (size(), size()).prop_map(|(distance, half_height)| Projection::ImagePlane { distance, half_height }),
         size().prop_map(|height| Projection::Orthographic { height }),
     ];
-    (point().prop_map(|p| p % 1e3), size(), projection)
-        .prop_map(|(position, ahead, projection)| Camera {
-            position,
-            look_at: position + DVec3::new(0.5, 0.5, -ahead),
-            up: DVec3::new(0.0, 1.0, 0.25),
-            projection,
+    let focus = prop_oneof![Just(Focus::LookAt), size().prop_map(Focus::Distance), Just(Focus::Target(DVec3::ZERO))];
+    let blades = prop::sample::select(vec![0, 3, 7]);
+    let lens = (size(), focus, blades, -90_f64..90.0).prop_map(|(radius, focus, blades, rotation_degrees)| Lens {
+        radius,
+        focus,
+        blades,
+        rotation_degrees,
+    });
+    (point().prop_map(|p| p % 1e3), size(), projection, prop::option::of(lens))
+        .prop_map(|(position, ahead, projection, lens)| {
+            let look_at = position + DVec3::new(0.5, 0.5, -ahead);
+            // A point that is sharp is before the eye.
+            let lens = lens.map(|lens| match lens.focus {
+                Focus::Target(_) => Lens { focus: Focus::Target(position + (look_at - position) * 2.0), ..lens },
+                Focus::LookAt | Focus::Distance(_) => lens,
+            });
+            Camera { position, look_at, up: DVec3::new(0.0, 1.0, 0.25), projection, lens }
         })
         .boxed()
 }
@@ -264,8 +371,27 @@ fn settings() -> BoxedStrategy<Scene> {
         (part(), 1_u32..=9).prop_map(|(threshold, depth)| Antialias::Pov1 { threshold, depth }),
         (part(), 1_u32..=9).prop_map(|(threshold, depth)| Antialias::Pov2 { threshold, depth }),
     ];
-    let picture = (1_u32..9999, 1_u32..9999, prop::sample::select(vec![Transfer::Srgb, Transfer::Linear]))
-        .prop_map(|(width, height, transfer)| Picture { width, height, transfer });
+    let transfer = prop::sample::select(vec![Transfer::Srgb, Transfer::Linear]);
+    let tones =
+        vec![ToneMapping::None, ToneMapping::Reinhard, ToneMapping::Aces, ToneMapping::Agx, ToneMapping::PbrNeutral];
+    let picture = (1_u32..9999, 1_u32..9999, transfer, -9_f32..9.0, prop::sample::select(tones)).prop_map(
+        |(width, height, transfer, exposure, tone_mapping)| Picture { width, height, transfer, exposure, tone_mapping },
+    );
+    let integrator = prop_oneof![
+        Just(Integrator::Whitted),
+        (1_u32..99, prop::option::of(1_f32..9.0)).prop_map(|(max_depth, clamp)| Integrator::Path { max_depth, clamp }),
+        prop::option::of(size()).prop_map(|distance| Integrator::AmbientOcclusion { distance }),
+        Just(Integrator::Normals),
+        Just(Integrator::Depth),
+        Just(Integrator::Uv),
+    ];
+    let sampling = (
+        prop::option::of(1_u32..999),
+        prop::option::of(0.001_f32..0.5),
+        prop::option::of(0.5..99.0),
+        any::<u32>(),
+        1_u32..64,
+    );
     let trees = prop::sample::select(vec![Trees::Preview, Trees::Picture, Trees::ManyRays]);
     let radius = || 0.5..8.0;
     let filter = prop_oneof![
@@ -275,10 +401,24 @@ fn settings() -> BoxedStrategy<Scene> {
         radius().prop_map(|radius| PixelFilter::Mitchell { radius }),
         radius().prop_map(|radius| PixelFilter::BlackmanHarris { radius }),
     ];
-    let render =
-        (1_u32..=20, part(), antialias, filter, trees).prop_map(|(max_depth, min_weight, antialias, filter, trees)| {
-            RenderSettings { max_depth, min_weight, antialias, filter, trees }
-        });
+    let render = (integrator, sampling, (1_u32..=20, part()), antialias, filter, trees).prop_map(
+        |(integrator, sampling, (max_depth, min_weight), antialias, filter, trees)| {
+            let (samples, noise, time, seed, light_samples) = sampling;
+            RenderSettings {
+                integrator,
+                samples,
+                noise,
+                time,
+                seed,
+                light_samples,
+                max_depth,
+                min_weight,
+                antialias,
+                filter,
+                trees,
+            }
+        },
+    );
     let background = prop_oneof![
         color().prop_map(Background::Color),
         (color(), color()).prop_map(|(bottom, top)| Background::Gradient { bottom, top })
@@ -370,5 +510,5 @@ fn empty_scenes_come_back() {
 fn json_is_read() {
     let text = r#"{"objects": [{"sphere": {"radius": 2, "material": {"color": "\u0072ed"}}}]}"#;
     let loaded = load_str(text, "scene.json", &NoAssets, &Limits::default()).unwrap();
-    assert_eq!(loaded.scene.scene().materials[0].color, Paint::Color(Rgb::new(1.0, 0.0, 0.0)));
+    assert_eq!(loaded.scene.scene().materials[0].as_classic().unwrap().color, Paint::Color(Rgb::new(1.0, 0.0, 0.0)));
 }

@@ -61,6 +61,7 @@ const MOST_CROSSINGS: u32 = 100_000;
 
 mod flat;
 pub(crate) mod operand;
+mod pieces;
 
 /// A shape placed in the world by an affine map, which may scale, shear and mirror it.
 #[derive(Clone, Debug)]

@@ -60,7 +60,7 @@ pub struct Sight {
 
 /// To where it is asked how points lie.
 #[derive(Clone, Copy, Debug)]
-pub struct Aim<'a> {
+pub struct Goal<'a> {
     /// The point.
     pub to: &'a Vantage,
     /// Only what lies nearer than this times the distance counts.
@@ -389,13 +389,13 @@ impl World {
     }
 
     /// How the points that are seen lie to a vantage. What lies between is looked up only where the cosine is positive.
-    pub fn sights(&self, seen: &Seen, aim: &Aim<'_>, sights: &mut Sights) {
-        dispatch!(self.simd(), simd => self.sights_with(simd, seen, aim, sights));
+    pub fn sights(&self, seen: &Seen, goal: &Goal<'_>, sights: &mut Sights) {
+        dispatch!(self.simd(), simd => self.sights_with(simd, seen, goal, sights));
     }
 
     #[inline(always)]
-    fn sights_with<S: Simd>(&self, simd: S, seen: &Seen, aim: &Aim<'_>, sights: &mut Sights) {
-        let Aim { to, reach, mask, cone } = *aim;
+    fn sights_with<S: Simd>(&self, simd: S, seen: &Seen, goal: &Goal<'_>, sights: &mut Sights) {
+        let Goal { to, reach, mask, cone } = *goal;
         let start = Lanes::load(simd, &seen.start);
         let away = Lanes::splat(simd, to.point()) - start;
         let squared = away.dot(away);

@@ -6,7 +6,7 @@ mod plain;
 
 use crate::compile::{CompiledScene, OPAQUE};
 use crate::visibility::SHORT_OF_LIGHT;
-use durer_geometry::{Aim, Hit, LANES, Packet, Ray, Seen, Sight, Sights, Surface};
+use durer_geometry::{Goal, Hit, LANES, Packet, Ray, Seen, Sight, Sights, Surface};
 use durer_math::DVec2;
 use plain::Plain;
 pub(crate) use plain::Sum;
@@ -30,7 +30,8 @@ impl Ahead {
     /// True if there is anything to be gained.
     pub(crate) fn pays(scene: &CompiledScene) -> bool {
         // Around the eye there may be media, and what is seen first may be a hole.
-        scene.eye_vantage.is_some() && scene.media_at_eye.is_empty() && !scene.has_holes
+        let is_classic = matches!(scene.settings.integrator, durer_scene::Integrator::Whitted);
+        is_classic && scene.eye_vantage.is_some() && scene.media_at_eye.is_empty() && !scene.has_holes
     }
 
     /// Looks through at most eight points of the picture, in pixels. False, and nothing is known, where that does not pay.
@@ -47,8 +48,8 @@ impl Ahead {
         for (sights, (light, vantage)) in self.sights.iter_mut().zip(lights) {
             match vantage {
                 Some(to) => {
-                    let aim = Aim { to, reach: SHORT_OF_LIGHT, mask: OPAQUE, cone: light.cone() };
-                    scene.world.sights(&self.seen, &aim, sights.get_or_insert_default());
+                    let goal = Goal { to, reach: SHORT_OF_LIGHT, mask: OPAQUE, cone: light.cone() };
+                    scene.world.sights(&self.seen, &goal, sights.get_or_insert_default());
                 }
                 None => *sights = None,
             }

@@ -1,12 +1,41 @@
 //! What rays that leave the scene see.
 
+use crate::textures::Environment;
 use durer_math::{DVec3, Rgb};
-use durer_scene::Background;
+use durer_scene::Scene;
 
-/// The background in a direction of unit length.
-pub(crate) fn background(background: &Background, direction: DVec3) -> Rgb {
-    match *background {
-        Background::Color(color) => color,
-        Background::Gradient { bottom, top } => bottom.lerp(top, (0.5 * (direction.y + 1.0)) as f32),
+/// The background, compiled.
+#[derive(Debug)]
+pub(crate) enum Background {
+    /// The same everywhere.
+    Color(Rgb),
+    /// Linear in the y component of the direction.
+    Gradient {
+        /// Straight down.
+        bottom: Rgb,
+        /// Straight up.
+        top: Rgb,
+    },
+    /// A picture of all directions.
+    Image(Environment),
+}
+
+impl Background {
+    /// That of a scene that passed its check.
+    pub(crate) fn compile(scene: &Scene) -> Background {
+        match scene.background {
+            durer_scene::Background::Color(color) => Background::Color(color),
+            durer_scene::Background::Gradient { bottom, top } => Background::Gradient { bottom, top },
+            durer_scene::Background::Image(map) => Background::Image(Environment::compile(&map, scene)),
+        }
+    }
+
+    /// What is seen in a direction of unit length.
+    pub(crate) fn seen(&self, direction: DVec3) -> Rgb {
+        match self {
+            Background::Color(color) => *color,
+            Background::Gradient { bottom, top } => bottom.lerp(*top, (0.5 * (direction.y + 1.0)) as f32),
+            Background::Image(map) => map.seen(direction),
+        }
     }
 }

@@ -1,13 +1,54 @@
 //! How light is scattered at a point of a surface, in a frame whose z axis is the shading normal, on the side that the ray
 //! came from. Directions point away from the surface and have unit length.
+//!
+//! One file for each kind of surface. A [`Bsdf`] is made anew at each hit, by value; the commonest, [`Bsdf::Diffuse`], is three
+//! numbers. Where light may take several ways, one is chosen at random, and the density is that of all of them.
 
-use durer_math::{DVec2, DVec3, Rgb, functions};
-use std::f64::consts::PI;
+#[cfg(test)]
+pub(crate) mod chi_square;
+mod classic;
+mod conductor;
+mod dielectric;
+mod fresnel;
+mod ggx;
+mod oren_nayar;
+mod plastic;
+mod principled;
+mod sheen;
+mod sheet;
+mod tables;
+mod warps;
+
+pub(crate) use classic::{Classic, Parts, Through};
+pub(crate) use conductor::Conductor;
+pub(crate) use dielectric::Dielectric;
+pub(crate) use fresnel::Reflectance;
+pub(crate) use ggx::Ggx;
+pub(crate) use oren_nayar::OrenNayar;
+pub(crate) use plastic::Plastic;
+pub(crate) use principled::{Coat, Layers, Principled, Through as ThroughLayers};
+pub(crate) use sheen::Sheen;
+pub(crate) use sheet::Sheet;
+
+use durer_math::{DVec2, DVec3, Rgb};
+use warps::{cosine_hemisphere, cosine_pdf};
 
 /// How light is scattered at a point.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bsdf {
-    diffuse: Rgb,
+pub(crate) enum Bsdf {
+    /// Lambert's law: this part of light goes in all directions.
+    Diffuse(Rgb),
+    OrenNayar(OrenNayar),
+    Conductor(Conductor),
+    /// A mirror of this color at all angles.
+    Mirror(Rgb),
+    Dielectric(Dielectric),
+    /// A boundary between media that bend light alike: all goes straight on, takes on this color, and shadow rays do not know.
+    Clear(Rgb),
+    Sheet(Sheet),
+    Plastic(Plastic),
+    Classic(Classic),
+    Principled(Principled),
 }
 
 /// A direction chosen at random.
@@ -18,6 +59,9 @@ pub(crate) struct Scattered {
     /// The scattering function times |cos θ|, divided by the density.
     pub(crate) weight: Rgb,
     pub(crate) how: How,
+    /// The part of the weight that is due to radiance being squeezed into fewer directions where it is let through into a denser
+    /// medium, 1/η². It says nothing of how much light is left, so roulette must not count it.
+    pub(crate) scale: f32,
 }
 
 /// How a direction was found.
@@ -27,48 +71,125 @@ pub(crate) enum How {
     Spread { pdf: f64 },
     /// It is the only one: mirrors, smooth glass.
     Only,
-    /// As if there were no surface: straight on. Shadow rays go this way, too.
+    /// As if there were no surface: straight on. Shadow rays go this way, too, with [`Bsdf::straight`].
     Straight,
 }
 
-impl Bsdf {
-    /// Lambert's: the part `albedo` of light in all directions.
-    pub(crate) fn diffuse(albedo: Rgb) -> Bsdf {
-        Bsdf { diffuse: albedo }
-    }
+/// A surface seen so nearly edge-on scatters nothing: numbers end there.
+const EDGE_ON: f64 = 1e-7;
 
+impl Bsdf {
     /// True if it scatters light only into directions that cannot be found by aiming at lights.
     pub(crate) fn is_specular(&self) -> bool {
-        false
+        match self {
+            Bsdf::Diffuse(_) | Bsdf::OrenNayar(_) => false,
+            Bsdf::Mirror(_) | Bsdf::Clear(_) => true,
+            Bsdf::Sheet(sheet) => sheet.is_specular(),
+            Bsdf::Conductor(conductor) => conductor.is_specular(),
+            Bsdf::Dielectric(dielectric) => dielectric.is_specular(),
+            Bsdf::Plastic(plastic) => plastic.is_specular(),
+            Bsdf::Classic(classic) => classic.is_specular(),
+            Bsdf::Principled(principled) => principled.is_specular(),
+        }
+    }
+
+    /// True if light from behind the surface may be found by aiming at it.
+    pub(crate) fn spreads_through(&self) -> bool {
+        match self {
+            Bsdf::Dielectric(dielectric) => !dielectric.is_specular(),
+            Bsdf::Sheet(sheet) => !sheet.is_specular(),
+            Bsdf::Principled(principled) => principled.spreads_through(),
+            Bsdf::Diffuse(_)
+            | Bsdf::OrenNayar(_)
+            | Bsdf::Mirror(_)
+            | Bsdf::Clear(_)
+            | Bsdf::Conductor(_)
+            | Bsdf::Plastic(_)
+            | Bsdf::Classic(_) => false,
+        }
     }
 
     /// The scattering function times |cos θ| of `toward`, and the density with which [`Bsdf::sample`] finds it.
+    #[inline]
     pub(crate) fn evaluate(&self, out: DVec3, toward: DVec3) -> (Rgb, f64) {
-        if out.z <= 0.0 || toward.z <= 0.0 {
+        if out.z < EDGE_ON || toward.z.abs() < EDGE_ON {
             return (Rgb::BLACK, 0.0);
         }
-        let pdf = toward.z / PI;
-        (self.diffuse * pdf as f32, pdf)
+        match self {
+            Bsdf::Diffuse(color) => {
+                let pdf = cosine_pdf(toward.z);
+                (*color * pdf as f32, pdf)
+            }
+            Bsdf::OrenNayar(_) if toward.z < 0.0 => (Rgb::BLACK, 0.0),
+            Bsdf::OrenNayar(rough) => (rough.evaluate(out, toward), cosine_pdf(toward.z)),
+            Bsdf::Mirror(_) | Bsdf::Clear(_) => (Rgb::BLACK, 0.0),
+            Bsdf::Sheet(sheet) => sheet.evaluate(out, toward),
+            Bsdf::Conductor(conductor) => conductor.evaluate(out, toward),
+            Bsdf::Dielectric(dielectric) => dielectric.evaluate(out, toward),
+            Bsdf::Plastic(plastic) => plastic.evaluate(out, toward),
+            Bsdf::Classic(classic) => classic.evaluate(out, toward),
+            Bsdf::Principled(principled) => principled.evaluate(out, toward),
+        }
     }
 
     /// A direction to go on in: `lobe` chooses how, `at` where.
-    pub(crate) fn sample(&self, out: DVec3, _lobe: f64, at: DVec2) -> Option<Scattered> {
-        if out.z <= 0.0 {
+    #[inline]
+    pub(crate) fn sample(&self, out: DVec3, lobe: f64, at: DVec2) -> Option<Scattered> {
+        if out.z < EDGE_ON {
             return None;
         }
-        let (radius, angle) = (at.x.sqrt(), 2.0 * PI * at.y);
-        let (x, y) = (radius * functions::cos(angle), radius * functions::sin(angle));
-        let z = (1.0 - at.x).max(0.0).sqrt();
-        let pdf = z / PI;
-        (z > 0.0).then_some(Scattered {
-            direction: DVec3::new(x, y, z),
-            weight: self.diffuse,
-            how: How::Spread { pdf },
-        })
+        let scattered = match self {
+            Bsdf::Diffuse(color) => {
+                let direction = cosine_hemisphere(at);
+                let pdf = cosine_pdf(direction.z);
+                Scattered { direction, weight: *color, how: How::Spread { pdf }, scale: 1.0 }
+            }
+            Bsdf::OrenNayar(rough) => {
+                let direction = cosine_hemisphere(at);
+                Scattered::spread(direction, rough.evaluate(out, direction), cosine_pdf(direction.z))?
+            }
+            Bsdf::Mirror(color) => Scattered::mirrored(out, *color),
+            Bsdf::Clear(tint) => Scattered { direction: -out, weight: *tint, how: How::Only, scale: 1.0 },
+            Bsdf::Sheet(sheet) => sheet.sample(out, lobe, at)?,
+            Bsdf::Conductor(conductor) => conductor.sample(out, lobe, at)?,
+            Bsdf::Dielectric(dielectric) => dielectric.sample(out, lobe, at)?,
+            Bsdf::Plastic(plastic) => plastic.sample(out, lobe, at)?,
+            Bsdf::Classic(classic) => classic.sample(out, lobe, at)?,
+            Bsdf::Principled(principled) => principled.sample(out, lobe, at)?,
+        };
+        (scattered.direction.z.abs() >= EDGE_ON).then_some(scattered)
     }
 
-    /// The part of white light from everywhere that is scattered, about: the albedo of layers for denoisers.
-    pub(crate) fn albedo(&self) -> Rgb {
-        self.diffuse
+    /// What light that goes straight on keeps, if the surface lets it: what [`How::Straight`] is sampled for.
+    pub(crate) fn straight(&self, out: DVec3) -> Rgb {
+        match self {
+            Bsdf::Diffuse(_)
+            | Bsdf::OrenNayar(_)
+            | Bsdf::Mirror(_)
+            | Bsdf::Clear(_)
+            | Bsdf::Conductor(_)
+            | Bsdf::Dielectric(_)
+            | Bsdf::Plastic(_) => Rgb::BLACK,
+            Bsdf::Sheet(sheet) => sheet.straight(out),
+            Bsdf::Classic(classic) => classic.straight(out),
+            Bsdf::Principled(principled) => principled.straight(out),
+        }
+    }
+
+    /// The part of white light from everywhere that is scattered to `out`, about: the albedo of layers for denoisers.
+    pub(crate) fn albedo(&self, out: DVec3) -> Rgb {
+        match self {
+            Bsdf::Diffuse(color) | Bsdf::Mirror(color) | Bsdf::Clear(color) => *color,
+            Bsdf::OrenNayar(rough) => rough.albedo(out),
+            Bsdf::Sheet(sheet) => sheet.albedo(out),
+            Bsdf::Conductor(conductor) => conductor.albedo(out),
+            Bsdf::Dielectric(dielectric) => dielectric.albedo(out),
+            Bsdf::Plastic(plastic) => plastic.albedo(out),
+            Bsdf::Classic(classic) => classic.albedo(),
+            Bsdf::Principled(principled) => principled.albedo(out),
+        }
     }
 }
+
+#[cfg(test)]
+mod tests;

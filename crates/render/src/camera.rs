@@ -3,6 +3,7 @@
 mod lens;
 
 use self::lens::Lens;
+pub(crate) use self::lens::concentric_disc;
 use durer_geometry::{Bounds, LANES, Packet, Pinhole, Ray, World};
 use durer_math::{DVec2, DVec3, functions::tan};
 use durer_scene as scene;
@@ -51,8 +52,17 @@ impl Camera {
             up: up * half_height,
             parallel,
             scale: DVec2::new(2.0 / f64::from(width), 2.0 / f64::from(height)),
-            lens: None,
+            lens: camera.lens.zip(camera.focus_distance()).filter(|(lens, _)| lens.radius > 0.0).map(
+                |(lens, focus)| {
+                    Lens::new((right, up), lens.radius, focus, lens.blades, lens.rotation_degrees.to_radians())
+                },
+            ),
         }
+    }
+
+    /// How far away a point is, along the view, as the distance of what is in focus is measured.
+    pub(crate) fn depth_of(&self, point: DVec3) -> f64 {
+        (point - self.position).dot(self.forward)
     }
 
     /// True if rays start from more than one point of a lens.
@@ -188,6 +198,7 @@ fn frame(bounds: Bounds, aspect: f64) -> scene::Camera {
         look_at: center,
         up: DVec3::Y,
         projection: scene::Projection::FieldOfView { degrees },
+        lens: None,
     }
 }
 

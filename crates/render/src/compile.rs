@@ -8,16 +8,19 @@ mod shapes;
 mod solids;
 mod tree;
 
+use crate::background::Background;
 use crate::camera::Camera;
 use crate::emitters::Emitters;
 use crate::fog::Fog;
 use crate::lights::Light;
 use crate::materials::Material;
+use crate::surfaces::Scattering;
 use crate::textures::Textures;
+use crate::whitted_reading::Means;
 use contents::Contents;
 use durer_geometry::{Bounds, BuildFor, Hit, Plan, Primitive, SimdLevel, Vantage, World};
 use durer_math::Rgb;
-use durer_scene::{Background, CheckedScene, Picture, RenderSettings, Scene, Trees};
+use durer_scene::{CheckedScene, Integrator, Picture, RenderSettings, Scene, Trees};
 use imports::Brought;
 use looks::Looks;
 use rayon::prelude::*;
@@ -37,6 +40,8 @@ pub struct CompiledScene {
     shared: GeometryMemory,
     /// The scene's, and after them the default material.
     pub(crate) materials: Vec<Material>,
+    /// What path tracing makes of them, in the same order.
+    pub(crate) scatterings: Vec<Scattering>,
     pub(crate) textures: Textures,
     /// The scene's, and after them those that imported files bring.
     pub(crate) lights: Vec<Light>,
@@ -108,7 +113,7 @@ pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
     let camera = scene.camera.as_ref().or(brought.camera.as_ref());
     let camera = Camera::compile(camera, world.bounds(), width, height);
     let attenuates = |looks: &Looks| looks.is_medium && materials[looks.material as usize].attenuation.is_some();
-    CompiledScene {
+    let mut compiled = CompiledScene {
         attenuates: objects.iter().any(|object| attenuates(&object.looks)),
         has_holes: objects.iter().any(|object| object.looks.has_holes),
         media_at_eye: media_at_eye(&objects, &world, &camera),
@@ -123,11 +128,25 @@ pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
         shared,
         textures: Textures::compile(scene),
         materials,
-        background: scene.background,
+        scatterings: scatterings(scene),
+        background: Background::compile(scene),
         ambient: scene.ambient,
         fog: scene.fog.as_ref().map(Fog::compile),
         picture: scene.picture,
         settings: scene.render,
+    };
+    if looks_for_light(&scene.render) {
+        compiled.emitters = Emitters::of(&compiled);
+    }
+    compiled
+}
+
+/// True if there is use for knowing all that gives light.
+fn looks_for_light(settings: &RenderSettings) -> bool {
+    match settings.integrator {
+        Integrator::Path { .. } => true,
+        Integrator::Whitted => settings.light_samples > 0,
+        Integrator::AmbientOcclusion { .. } | Integrator::Normals | Integrator::Depth | Integrator::Uv => false,
     }
 }
 
@@ -142,7 +161,20 @@ fn purpose(trees: Trees) -> BuildFor {
 /// The scene's, and after them the default material.
 fn materials(scene: &Scene) -> Vec<Material> {
     let default = durer_scene::Material::default();
-    scene.materials.iter().chain([&default]).map(Material::compile).collect()
+    let (mut means, integrator) = (Means::new(scene), scene.render.integrator);
+    let all = scene.materials.iter().chain([&default]);
+    all.map(|material| Material::compile(material, &mut means, integrator)).collect()
+}
+
+/// What path tracing makes of the same.
+fn scatterings(scene: &Scene) -> Vec<Scattering> {
+    let default = durer_scene::Material::default();
+    let all = scene.materials.iter().chain([&default]).map(|material| Scattering::compile(&material.kind));
+    let all: Vec<Scattering> = all.collect();
+    if let Integrator::Path { .. } = scene.render.integrator {
+        all.iter().for_each(Scattering::prepare);
+    }
+    all
 }
 
 /// The media that may be around the origin of one of the eye's rays.

@@ -2,13 +2,12 @@
 
 use crate::antialias::{Antialias, Rows, Splat};
 use crate::compile::CompiledScene;
-use crate::eye::SceneEye;
+use crate::eye::{SceneEye, begin};
 use crate::film::{Account, Region};
 use crate::holes::Known;
-use crate::integrators::{Integrator, whitted::Whitted};
+use crate::integrators::{Integrator, sharp::Sharp};
 use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Scattering, Source, SurfaceSeen, Weighing};
 use crate::reconstruct::{Reconstruction, color_of, normalize};
-use crate::sampler::Sampler;
 use crate::schedule::{WithAntialias, pixel_alone, with_antialias};
 use durer_geometry::{Hit, Ray, Surface};
 use durer_math::{DVec2, DVec3, Rgb};
@@ -162,11 +161,11 @@ pub fn explain(scene: &CompiledScene, x: u32, y: u32) -> Option<PixelExplanation
     if x >= width || y >= height {
         return None;
     }
-    let splats = with_antialias(scene, Samples { scene, x, y });
+    let (splats, integrator) = (with_antialias(scene, Samples { scene, x, y }), Sharp::of(scene));
     let explained = splats.iter().filter_map(|splat| {
         let mut recorder = Recorder { scene, ray: None, open: Vec::new(), weighing: None };
-        let ray = scene.camera.ray(splat.at);
-        let color = Whitted.radiance(scene, &ray, Known::Nothing, &Sampler::of_place(0, splat.at), &mut recorder);
+        let (ray, sampler) = begin(scene, splat.at);
+        let color = integrator.radiance(scene, &ray, Known::Nothing, &sampler, &mut recorder);
         let weight = (splat.weight != 0.0).then_some(splat.weight);
         Some(SampleExplanation { at: splat.at, weight, color, ray: recorder.ray? })
     });

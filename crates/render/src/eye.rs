@@ -3,9 +3,9 @@
 use crate::compile::CompiledScene;
 use crate::film::Account;
 use crate::holes::Known;
-use crate::integrators::{Integrator, whitted::Whitted};
+use crate::integrators::{Integrator, sharp::Sharp};
 use crate::observer::{NotTraced, Observer, RayCounts, RayKind, SurfaceSeen};
-use crate::sampler::Sampler;
+use crate::sampler::{Purpose, Sampler};
 use durer_geometry::{LANES, Packet, Ray};
 use durer_imaging::Transfer;
 use durer_math::{DVec2, Rgb};
@@ -60,6 +60,7 @@ pub(crate) trait Eye: Sync {
 /// Looks at a scene, with the integrator.
 pub(crate) struct SceneEye<'s> {
     pub(crate) scene: &'s CompiledScene,
+    pub(crate) integrator: Sharp,
     /// Once it says so nothing is traced any more: what is seen then is black, and whoever asked has to throw it away.
     pub(crate) stop: &'s (dyn Fn() -> bool + Sync),
 }
@@ -67,8 +68,25 @@ pub(crate) struct SceneEye<'s> {
 impl<'s> SceneEye<'s> {
     /// One that never stops.
     pub(crate) fn new(scene: &'s CompiledScene) -> SceneEye<'s> {
-        SceneEye { scene, stop: &|| false }
+        SceneEye::until(scene, &|| false)
     }
+
+    /// One that stops once this says so.
+    pub(crate) fn until(scene: &'s CompiledScene, stop: &'s (dyn Fn() -> bool + Sync)) -> SceneEye<'s> {
+        SceneEye { scene, integrator: Sharp::of(scene), stop }
+    }
+}
+
+/// The ray of the eye through a point of the picture that belongs to no pixel alone, and the random numbers for it. Through a
+/// lens it goes at a point that chance chooses, the same whoever asks.
+#[inline]
+pub(crate) fn begin(scene: &CompiledScene, at: DVec2) -> (Ray, Sampler) {
+    let sampler = Sampler::of_place(scene.settings.seed, at);
+    let ray = match scene.camera.has_lens() {
+        true => scene.camera.ray_through_lens(at, sampler.two(0, Purpose::Lens)),
+        false => scene.camera.ray(at),
+    };
+    (ray, sampler)
 }
 
 impl Eye for SceneEye<'_> {
@@ -83,7 +101,7 @@ impl Eye for SceneEye<'_> {
         }
         for points in points.chunks(LANES) {
             let [point] = points else {
-                let rays: arrayvec::ArrayVec<Ray, LANES> = points.iter().map(|&at| self.scene.camera.ray(at)).collect();
+                let rays: arrayvec::ArrayVec<Ray, LANES> = points.iter().map(|&at| begin(self.scene, at).0).collect();
                 let hits = self.scene.world.closest_hits(&Packet::new(&rays), f64::INFINITY, u32::MAX);
                 let known = points.iter().zip(hits);
                 looks.extend(known.map(|(&at, hit)| self.look_at(at, Known::Hit(hit), account)));
@@ -97,8 +115,8 @@ impl Eye for SceneEye<'_> {
 impl SceneEye<'_> {
     fn look_at(&self, at: DVec2, known: Known<'_>, account: &mut Account) -> Look {
         let mut watch = Watch { scene: self.scene, rays: &mut account.rays, first: None };
-        let color =
-            Whitted.radiance(self.scene, &self.scene.camera.ray(at), known, &Sampler::of_place(0, at), &mut watch);
+        let (ray, sampler) = begin(self.scene, at);
+        let color = self.integrator.radiance(self.scene, &ray, known, &sampler, &mut watch);
         let First { thing, piece, hides, depth, normal } = watch.first.unwrap_or(First::BACKGROUND);
         let is_finite = color.is_finite();
         if !is_finite {

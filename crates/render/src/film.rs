@@ -1,24 +1,19 @@
 //! What has been gathered so far: the only thing that changes while rendering.
 
+mod merge;
+mod region;
+mod sums;
+
 use crate::observer::RayCounts;
 use durer_imaging::Image;
 use durer_math::{DVec2, Rgb};
+use std::cmp::Ordering::Equal;
 
-/// Edge of a tile, in pixels: small enough to share out evenly, large enough that sharing costs nothing.
-pub(crate) const TILE: u32 = 32;
-
-/// A rectangle of pixels within a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Region {
-    /// Left edge, in pixels from the picture's left.
-    pub x: u32,
-    /// Upper edge, in pixels from the picture's top.
-    pub y: u32,
-    /// Width in pixels.
-    pub width: u32,
-    /// Height in pixels.
-    pub height: u32,
-}
+pub use merge::MergeError;
+pub use region::Region;
+pub(crate) use region::TILE;
+pub use sums::{Part, SampleRange, Sums};
+pub(crate) use sums::{PixelSums, SampledTile};
 
 /// The colours of a region's pixels, in linear light, and an account of how they came about.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,18 +27,22 @@ pub struct Film {
     /// How many pixels they have.
     finished_pixels: u64,
     account: Account,
+    /// Of integrators that take samples; `pixels` are their means then.
+    sums: Option<Sums>,
+    /// All that were taken.
+    samples: u64,
 }
 
-/// A [`Film`] taken apart, to be stored and put together again.
-#[derive(Clone, Debug, PartialEq)]
+/// A [`Film`] taken apart, to be stored and put together again. The default is that of nothing at all.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmParts {
     /// Part of the picture that it is; not empty.
     pub region: Region,
-    /// Colours in linear light, row by row: one for each pixel.
+    /// Colours in linear light, row by row: one for each pixel, or none if there are sums, from which they follow.
     pub pixels: Vec<Rgb>,
-    /// How often each pixel was divided.
+    /// How often each pixel was divided: as many.
     pub depths: Vec<u8>,
-    /// Which tiles are finished, row by row: as many as [`Region::tile_count`] says.
+    /// Which tiles are finished, row by row: as many as [`Region::tile_count`] says. With sums all are, or none.
     pub finished: Vec<bool>,
     /// Rays traced.
     pub rays: RayCounts,
@@ -51,6 +50,8 @@ pub struct FilmParts {
     pub bad_samples: u64,
     /// The first of them; there is one exactly if there are any.
     pub first_bad_sample: Option<BadSample>,
+    /// Of integrators that take samples.
+    pub sums: Option<Sums>,
 }
 
 /// How pixels came about.
@@ -86,45 +87,6 @@ impl Tile {
     }
 }
 
-impl Region {
-    /// The number of its pixels.
-    pub fn pixels(&self) -> u64 {
-        u64::from(self.width) * u64::from(self.height)
-    }
-
-    /// The number of tiles that it is cut into.
-    pub fn tile_count(&self) -> u64 {
-        u64::from(self.width.div_ceil(TILE)) * u64::from(self.height.div_ceil(TILE))
-    }
-
-    /// The columns and rows of its pixels, row by row.
-    pub(crate) fn pixel_places(self) -> impl Iterator<Item = (u32, u32)> {
-        (self.y..self.y + self.height).flat_map(move |y| (self.x..self.x + self.width).map(move |x| (x, y)))
-    }
-
-    /// With so many pixels more on all sides, as far as the picture goes.
-    pub(crate) fn grown(self, by: u32, (width, height): (u32, u32)) -> Region {
-        let (x, y) = (self.x.saturating_sub(by), self.y.saturating_sub(by));
-        let right = self.x.saturating_add(self.width).saturating_add(by).min(width);
-        let bottom = self.y.saturating_add(self.height).saturating_add(by).min(height);
-        Region { x, y, width: right - x, height: bottom - y }
-    }
-
-    /// Cuts it into tiles, row by row.
-    pub(crate) fn tiles(self) -> impl Iterator<Item = Region> {
-        self.bands().flat_map(|band| {
-            let starts = (0..band.width).step_by(TILE as usize);
-            starts.map(move |d| Region { x: band.x + d, width: TILE.min(band.width - d), ..band })
-        })
-    }
-
-    /// Cuts it into rows of tiles.
-    pub(crate) fn bands(self) -> impl Iterator<Item = Region> {
-        let starts = (0..self.height).step_by(TILE as usize);
-        starts.map(move |d| Region { y: self.y + d, height: TILE.min(self.height - d), ..self })
-    }
-}
-
 impl Account {
     pub(crate) fn add(&mut self, other: &Account) {
         self.rays.add(&other.rays);
@@ -139,8 +101,6 @@ impl Account {
     }
 }
 
-use std::cmp::Ordering::Equal;
-
 impl Film {
     /// A black film, of which nothing is finished.
     pub(crate) fn new(region: Region) -> Film {
@@ -152,15 +112,22 @@ impl Film {
             finished: vec![false; region.tiles().count()],
             finished_pixels: 0,
             account: Account::default(),
+            sums: None,
+            samples: 0,
         }
+    }
+
+    /// A black film for these samples, none of which is taken.
+    pub(crate) fn of_samples(region: Region, samples: SampleRange, direct: bool) -> Film {
+        Film { sums: Some(Sums::new(Part { region, samples }, direct)), ..Film::new(region) }
     }
 
     /// Puts a film together; `None` if the parts do not fit each other.
     pub fn from_parts(parts: FilmParts) -> Option<Film> {
-        let FilmParts { region, pixels, depths, finished, rays, bad_samples, first_bad_sample } = parts;
-        let Region { x, y, width, height } = region;
-        let lies_somewhere = x.checked_add(width).is_some() && y.checked_add(height).is_some() && region.pixels() > 0;
-        let all_there = pixels.len() as u64 == region.pixels()
+        let FilmParts { region, pixels, depths, finished, rays, bad_samples, first_bad_sample, sums } = parts;
+        let lies_somewhere = region.is_somewhere();
+        let length = if sums.is_some() { 0 } else { region.pixels() };
+        let all_there = pixels.len() as u64 == length
             && depths.len() == pixels.len()
             && finished.len() as u64 == region.tile_count();
         let account_adds_up = (bad_samples > 0) == first_bad_sample.is_some();
@@ -170,7 +137,37 @@ impl Film {
         }
         let tiles = region.tiles().zip(&finished).filter(|(_, finished)| **finished);
         let finished_pixels = tiles.map(|(tile, _)| tile.pixels()).sum();
-        Some(Film { region, pixels, depths, finished, finished_pixels, account })
+        let Some(sums) = sums else {
+            return Some(Film { region, pixels, depths, finished, finished_pixels, account, sums: None, samples: 0 });
+        };
+        let is_finished = finished_pixels == region.pixels();
+        if !(is_finished || finished_pixels == 0) || !sums.fit(region, is_finished) {
+            return None;
+        }
+        let pixels: Vec<Rgb> = (0..sums.taken.len()).map(|pixel| sums.mean(pixel)).collect();
+        let (depths, samples) = (vec![0; pixels.len()], sums.samples());
+        Some(Film { region, pixels, depths, finished, finished_pixels, account, sums: Some(sums), samples })
+    }
+
+    /// Adds samples of pixels.
+    pub(crate) fn add(&mut self, tile: &SampledTile) {
+        let Some(sums) = &mut self.sums else { return };
+        for ((x, y), more) in tile.region.pixel_places().zip(&tile.pixels) {
+            let pixel = self.region.index_of(x, y);
+            sums.add(pixel, more);
+            self.samples = self.samples.saturating_add(more.taken.into());
+            self.pixels[pixel] = sums.mean(pixel);
+        }
+        self.account.add(&tile.account);
+    }
+
+    /// No more samples are to come. If all pixels have as many, the film is one of these.
+    pub(crate) fn finish_samples(&mut self) {
+        if let Some(sums) = &mut self.sums {
+            sums.close();
+        }
+        self.finished.fill(true);
+        self.finished_pixels = self.region.pixels();
     }
 
     /// Puts a finished rectangle on the film, which begins at the corner of a tile and ends at the edges of tiles.
@@ -219,9 +216,19 @@ impl Film {
         &self.finished
     }
 
-    /// Pixels that are finished; the others are black.
+    /// Pixels that are finished; the others are black, or lack some of their samples.
     pub fn finished_pixels(&self) -> u64 {
         self.finished_pixels
+    }
+
+    /// The sums of its samples, if it was made by an integrator that takes samples.
+    pub fn sums(&self) -> Option<&Sums> {
+        self.sums.as_ref()
+    }
+
+    /// How far it has come: its finished pixels, or the samples that it has.
+    pub fn done(&self) -> u64 {
+        if self.sums.is_some() { self.samples } else { self.finished_pixels }
     }
 
     /// True if every pixel is finished.
@@ -269,20 +276,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tiles_cover_a_region_once() {
-        let region = Region { x: 5, y: 7, width: 70, height: 33 };
-        let mut seen = vec![0; 70 * 33];
-        for tile in region.tiles() {
-            for y in tile.y..tile.y + tile.height {
-                for x in tile.x..tile.x + tile.width {
-                    seen[((y - 7) * 70 + x - 5) as usize] += 1;
-                }
-            }
-        }
-        assert!(seen.iter().all(|&n| n == 1));
-    }
-
-    #[test]
     fn parts_that_do_not_fit_make_no_film() {
         let region = Region { x: 5, y: 7, width: 70, height: 40 };
         let film = Film::new(region);
@@ -294,6 +287,7 @@ mod tests {
             rays: film.rays(),
             bad_samples: film.bad_samples(),
             first_bad_sample: film.first_bad_sample(),
+            sums: None,
         };
         assert_eq!(region.tile_count(), 6);
         assert_eq!(Film::from_parts(parts()).as_ref(), Some(&film));

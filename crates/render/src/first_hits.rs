@@ -6,6 +6,7 @@
 use crate::ahead::Ahead;
 use crate::antialias::Antialias;
 use crate::compile::CompiledScene;
+use crate::eye::begin;
 use crate::film::Region;
 use crate::holes::Known;
 use durer_geometry::{Hit, LANES, Packet, Ray};
@@ -113,7 +114,7 @@ impl FirstHits {
     }
 
     fn look(&mut self, scene: &CompiledScene, points: &[DVec2], places: &[usize]) {
-        let rays: arrayvec::ArrayVec<Ray, LANES> = points.iter().map(|&point| scene.camera.ray(point)).collect();
+        let rays: arrayvec::ArrayVec<Ray, LANES> = points.iter().map(|&point| begin(scene, point).0).collect();
         let hits = scene.world.closest_hits(&Packet::new(&rays), f64::INFINITY, u32::MAX);
         for (&place, hit) in places.iter().zip(hits) {
             self.hits[place] = hit;

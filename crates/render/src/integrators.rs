@@ -1,7 +1,16 @@
 //! Integrators: what light arrives along a ray. One file each.
 
+pub(crate) mod ambient_occlusion;
+pub(crate) mod depth;
+pub(crate) mod first_surface;
+pub(crate) mod normals;
 pub(crate) mod path;
+pub(crate) mod sharp;
+pub(crate) mod uv;
 pub(crate) mod whitted;
+
+#[cfg(test)]
+mod tests;
 
 use crate::compile::CompiledScene;
 use crate::holes::Known;

@@ -5,7 +5,6 @@
 mod ahead;
 mod antialias;
 mod background;
-#[allow(dead_code)] // until the path tracer is wired
 mod bsdf;
 mod camera;
 mod compile;
@@ -14,27 +13,29 @@ mod emitters;
 mod explain;
 mod eye;
 mod film;
+mod filter_sampling;
 mod first_hits;
 mod fog;
-#[allow(dead_code)]
 mod frame;
 mod heatmap;
 mod holes;
-#[allow(dead_code)]
 mod integrators;
 mod lights;
 mod materials;
 mod media;
 mod memory;
 mod observer;
+mod passes;
 mod pixel;
 mod reconstruct;
-#[allow(dead_code)]
 mod sampler;
 mod schedule;
+mod seen_first;
 mod shading;
+mod surfaces;
 mod textures;
 mod visibility;
+mod whitted_reading;
 
 pub use compile::{CompiledScene, GeometryMemory, compile, compile_for};
 pub use durer_geometry::{Bounds, SimdLevel};
@@ -42,8 +43,9 @@ pub use explain::{
     Contribution, Element, HitExplanation, HoleExplanation, LightExplanation, PixelExplanation, RayExplanation,
     SampleExplanation, explain,
 };
-pub use film::{BadSample, Film, FilmParts, Region};
+pub use film::{BadSample, Film, FilmParts, MergeError, Part, Region, SampleRange, Sums};
 pub use heatmap::{HeatMap, heatmap};
 pub use memory::memory_needed;
 pub use observer::{NotTraced, RayCounts, RayKind, Scattering, Source, Weighing};
 pub use schedule::{Progress, RenderError, RenderOptions, render, render_on, with_threads};
+pub use seen_first::{SeenFirst, seen_first};

@@ -1,7 +1,9 @@
 //! Lights: what arrives at a point, from where.
 
-use durer_math::{DVec3, Rgb, functions::cos};
+use durer_math::functions::{cos, sin};
+use durer_math::{DVec2, DVec3, Rgb, any_orthonormal_pair};
 use durer_scene::{Falloff, LightKind};
+use std::f64::consts::PI;
 
 /// A lamp seen from within a hair's breadth is bright, not infinite: as bright as the strongest is without falloff. All that
 /// materials make of it is then within single precision.
@@ -17,9 +19,18 @@ pub(crate) struct Light {
 
 #[derive(Clone, Copy, Debug)]
 enum Kind {
-    Point { position: DVec3, falloff: Falloff },
-    Spot { position: DVec3, axis: DVec3, cone: Cone, falloff: Falloff },
+    Point { ball: Ball, falloff: Falloff },
+    Spot { ball: Ball, axis: DVec3, cone: Cone, falloff: Falloff },
     Directional { towards: DVec3 },
+}
+
+/// Where a lamp is. With a radius, it is a ball of even radiance that no ray sees: it lights, and casts soft shadows, but is
+/// not in the picture. From outside it lights as a point in its middle does, if nothing is in the way; that is what tells a
+/// surface that faces it how bright it is, and whether it is in a spot's cone.
+#[derive(Clone, Copy, Debug)]
+struct Ball {
+    middle: DVec3,
+    radius: f64,
 }
 
 /// A spot's cone: full light where the cosine to the axis is at least `inner`, none where it is below `outer`.
@@ -43,22 +54,46 @@ pub(crate) struct Arriving {
 impl Light {
     pub(crate) fn compile(light: &durer_scene::Light) -> Light {
         let kind = match light.kind {
-            LightKind::Point { position, falloff } => Kind::Point { position, falloff },
-            LightKind::Spot { position, target, half_angle_degrees, inner_half_angle_degrees, falloff } => {
+            LightKind::Point { position, falloff, radius } => {
+                Kind::Point { ball: Ball { middle: position, radius }, falloff }
+            }
+            LightKind::Spot { position, target, half_angle_degrees, inner_half_angle_degrees, falloff, radius } => {
                 let cosine = |degrees: f64| cos(degrees.to_radians());
                 let cone = Cone { inner: cosine(inner_half_angle_degrees), outer: cosine(half_angle_degrees) };
-                Kind::Spot { position, axis: (target - position).normalize(), cone, falloff }
+                let ball = Ball { middle: position, radius };
+                Kind::Spot { ball, axis: (target - position).normalize(), cone, falloff }
             }
             LightKind::Directional { direction } => Kind::Directional { towards: -direction.normalize() },
         };
-        Light { power: light.color * light.intensity, kind }
+        Light { power: light.color * light.classic_intensity(), kind }
+    }
+
+    fn ball(&self) -> Option<&Ball> {
+        match &self.kind {
+            Kind::Point { ball, .. } | Kind::Spot { ball, .. } => Some(ball),
+            Kind::Directional { .. } => None,
+        }
     }
 
     /// The point that it shines from, if there is one.
     pub(crate) fn position(&self) -> Option<DVec3> {
-        match self.kind {
-            Kind::Point { position, .. } | Kind::Spot { position, .. } => Some(position),
-            Kind::Directional { .. } => None,
+        self.ball().filter(|ball| ball.radius == 0.0).map(|ball| ball.middle)
+    }
+
+    /// That of the ball that it shines from; 0 for points and directional lights.
+    #[inline]
+    pub(crate) fn radius(&self) -> f64 {
+        self.ball().map_or(0.0, |ball| ball.radius)
+    }
+
+    /// The middle and the radius of what it shines from, if it weakens with distance.
+    pub(crate) fn place(&self) -> Option<(DVec3, f64)> {
+        match &self.kind {
+            Kind::Point { ball, falloff: Falloff::InverseSquare }
+            | Kind::Spot { ball, falloff: Falloff::InverseSquare, .. } => Some((ball.middle, ball.radius)),
+            Kind::Point { falloff: Falloff::None, .. }
+            | Kind::Spot { falloff: Falloff::None, .. }
+            | Kind::Directional { .. } => None,
         }
     }
 
@@ -78,12 +113,17 @@ impl Light {
         }
     }
 
+    /// The luminance of the irradiance on a surface that faces it; of what weakens with distance, at distance 1.
+    pub(crate) fn luminance(&self) -> f64 {
+        PI * f64::from(self.power.luminance()).max(0.0)
+    }
+
     /// What arrives at a point; `None` where the light does not shine.
     #[inline]
     pub(crate) fn arriving(&self, at: DVec3) -> Option<Arriving> {
         match &self.kind {
-            Kind::Point { position, .. } | Kind::Spot { position, .. } => {
-                let to_light = *position - at;
+            Kind::Point { ball, .. } | Kind::Spot { ball, .. } => {
+                let to_light = ball.middle - at;
                 let squared = to_light.length_squared();
                 let distance = squared.sqrt();
                 self.arriving_along(to_light * (1.0 / distance), distance, squared)
@@ -110,6 +150,33 @@ impl Light {
                 Some(Arriving { direction: *towards, distance: f64::INFINITY, light: self.power })
             }
         }
+    }
+
+    /// What arrives from a place on the side of its ball that is seen from a point, chosen by two numbers from 0 to 1; `None`
+    /// where it does not shine. The mean of all, times the cosine to a surface that sees all of the ball, is what arrives from
+    /// its middle. From inside of the ball, which no size of a lamp keeps anyone from, it comes from all directions, and what
+    /// weakens with distance is as bright as on its surface.
+    pub(crate) fn arriving_from_ball(&self, at: DVec3, choice: DVec2) -> Option<Arriving> {
+        let Ball { middle, radius } = *self.ball()?;
+        let to_middle = middle - at;
+        let squared = to_middle.length_squared();
+        let outside = squared > radius * radius;
+        // 1 less the cosine of the half-angle under which it is seen; inside, as wide as it gets.
+        let sine2 = if outside { radius * radius / squared } else { 1.0 };
+        let whole = if outside { sine2 / (1.0 + (1.0 - sine2).sqrt()) } else { 2.0 };
+        let axis = to_middle.try_normalize().unwrap_or(DVec3::Y);
+        let less = choice.x * whole;
+        let (cosine, sine) = (1.0 - less, (less * (2.0 - less)).max(0.0).sqrt());
+        let (u, v) = any_orthonormal_pair(axis);
+        let angle = 2.0 * PI * choice.y;
+        let direction = (axis * cosine + (u * cos(angle) + v * sin(angle)) * sine).normalize();
+        let along = to_middle.dot(direction);
+        let half_chord = (radius * radius - (to_middle - direction * along).length_squared()).max(0.0).sqrt();
+        let distance = if outside { along - half_chord } else { along + half_chord };
+        let point = self.arriving(if outside { at } else { middle - axis * radius })?;
+        // Even radiance L gives π L sine2 from a ball as a whole; chosen evenly from 2π `whole`, the mean must be that.
+        let light = point.light * (2.0 * whole / sine2) as f32;
+        (distance > 0.0).then_some(Arriving { direction, distance, light })
     }
 
     #[inline]
@@ -141,15 +208,20 @@ impl Cone {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use durer_scene::Strength;
 
     fn light(kind: LightKind) -> Light {
-        Light::compile(&durer_scene::Light { name: None, color: Rgb::WHITE, intensity: 0.5, kind })
+        Light::compile(&durer_scene::Light { name: None, color: Rgb::WHITE, strength: Strength::Classic(0.5), kind })
     }
 
     #[test]
     fn falloff_none_is_constant_and_inverse_square_quarters_at_twice_the_distance() {
         let at = |falloff, x| {
-            light(LightKind::Point { position: DVec3::ZERO, falloff }).arriving(DVec3::X * x).unwrap().light.r
+            light(LightKind::Point { position: DVec3::ZERO, falloff, radius: 0.0 })
+                .arriving(DVec3::X * x)
+                .unwrap()
+                .light
+                .r
         };
         assert_eq!((at(Falloff::None, 1.0), at(Falloff::None, 7.0)), (0.5, 0.5));
         assert_eq!((at(Falloff::InverseSquare, 1.0), at(Falloff::InverseSquare, 2.0)), (0.5, 0.125));
@@ -164,6 +236,7 @@ mod tests {
             half_angle_degrees: 15.0,
             inner_half_angle_degrees: 15.0,
             falloff: Falloff::None,
+            radius: 0.0,
         });
         let radius = 10.0 * 0.267_949_192_431_122_7;
         for direction in [DVec3::X, DVec3::Y, DVec3::new(0.6, -0.8, 0.0)] {
@@ -181,6 +254,7 @@ mod tests {
             half_angle_degrees: 60.0,
             inner_half_angle_degrees: 0.0,
             falloff: Falloff::None,
+            radius: 0.0,
         });
         // Cosines 1 and 1/2; midway 3/4.
         let at = DVec3::new(0.75, (1.0_f64 - 0.75 * 0.75).sqrt(), 0.0);

@@ -1,7 +1,8 @@
-//! Materials, compiled: the numbers that shading reads, and the laws of reflection and refraction.
+//! Materials, compiled for Whitted's algorithm: the numbers that shading reads, and the laws of reflection and refraction.
 
+use crate::whitted_reading::{Means, whitted};
 use durer_math::{DVec3, Rgb, functions};
-use durer_scene::Paint;
+use durer_scene::{Classic, Integrator, MaterialKind, Paint, Relief, Sides};
 
 /// A material, compiled.
 #[derive(Clone, Copy, Debug)]
@@ -17,32 +18,68 @@ pub(crate) struct Material {
     pub(crate) fresnel: bool,
     /// What light loses inside, per unit of length, as the exponent of e (Beer–Lambert), negative.
     pub(crate) attenuation: Option<Rgb>,
-    /// Light that the surface gives off by itself.
-    pub(crate) emission: Rgb,
+    /// Light that the surface gives off by itself, if any.
+    pub(crate) emission: Option<durer_scene::Emission>,
     /// How much of the surface is there; `None` if all of it is, everywhere.
     pub(crate) opacity: Option<Paint>,
     /// What passes of light where no texture decides about that.
     pub(crate) passed_if_even: Rgb,
+    /// How shadow rays get through.
+    pub(crate) passage: Passage,
+    /// Relief that is only shaded.
+    pub(crate) relief: Option<Relief>,
+    /// Where several media are in one place, that of the highest priority is there.
+    pub(crate) priority: i32,
+    /// True if some texture decides about anything.
+    pub(crate) is_textured: bool,
+}
+
+/// How light gets straight through a surface, as shadow rays go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Passage {
+    /// All through, as the transparency says: [`Material::passed`].
+    Even,
+    /// Some through sheets, depending on the angle; none through what bounds a medium.
+    Sheets,
+    /// As through sheets, even where there is a medium.
+    Thin,
+    /// Evenly through sheets; none through what bounds a medium.
+    EvenSheets,
+    /// None.
+    Closed,
 }
 
 impl Material {
-    pub(crate) fn compile(material: &durer_scene::Material) -> Material {
+    pub(crate) fn compile(material: &durer_scene::Material, means: &mut Means<'_>, integrator: Integrator) -> Material {
         let exponent =
             |a: &durer_scene::Attenuation| a.color.map(|c| (functions::ln(f64::from(c)) / a.distance) as f32);
+        let classic = &whitted(&material.kind, means);
         let mut compiled = Material {
-            color: material.color,
-            ambient: material.ambient,
-            diffuse: material.diffuse,
-            specular: material.specular,
-            shininess: material.shininess,
-            reflection: material.reflection,
-            transparency: material.transparency,
-            ior: material.ior,
-            fresnel: material.fresnel,
-            attenuation: material.attenuation.as_ref().map(exponent),
-            emission: material.emission,
+            color: classic.color,
+            ambient: classic.ambient,
+            diffuse: classic.diffuse,
+            specular: classic.specular,
+            shininess: classic.shininess,
+            reflection: classic.reflection,
+            transparency: classic.transparency,
+            ior: classic.ior,
+            fresnel: classic.fresnel,
+            attenuation: classic.attenuation.as_ref().map(exponent),
+            emission: Some(material.emission).filter(|emission| !emission.is_black()),
             opacity: Some(material.opacity).filter(|opacity| *opacity != Paint::Color(Rgb::WHITE)),
-            passed_if_even: material.transparency,
+            passed_if_even: classic.transparency,
+            passage: Passage::of(&material.kind, integrator),
+            relief: material.relief,
+            priority: match &material.kind {
+                MaterialKind::Glass(glass) => glass.priority,
+                MaterialKind::Classic(_)
+                | MaterialKind::Matte(_)
+                | MaterialKind::Metal(_)
+                | MaterialKind::Plastic(_)
+                | MaterialKind::Mirror(_)
+                | MaterialKind::Principled(_) => 0,
+            },
+            is_textured: material.paints().iter().any(|paint| matches!(paint, Paint::Texture(_))),
         };
         if let Some(Paint::Color(opacity)) = compiled.opacity {
             compiled.passed_if_even = compiled.passed(opacity);
@@ -55,9 +92,30 @@ impl Material {
         !self.transparency.is_black()
     }
 
-    /// True if light gets past the surface: through it, or where it is not there.
-    pub(crate) fn lets_light_pass(&self) -> bool {
-        self.is_clear() || self.opacity.is_some()
+    /// True if shadow rays get past the surface: through it, or where it is not there.
+    pub(crate) fn lets_light_pass(&self, is_medium: bool) -> bool {
+        let through = match self.passage {
+            Passage::Even => self.is_clear(),
+            Passage::Sheets | Passage::EvenSheets => !is_medium,
+            Passage::Thin => true,
+            Passage::Closed => false,
+        };
+        through || self.opacity.is_some()
+    }
+
+    /// True if what passes is not the same everywhere and under every angle.
+    pub(crate) fn passes_unevenly(&self, is_medium: bool) -> bool {
+        let by_angle = match self.passage {
+            Passage::Even | Passage::EvenSheets | Passage::Closed => false,
+            Passage::Sheets => !is_medium,
+            Passage::Thin => true,
+        };
+        by_angle || matches!(self.opacity, Some(Paint::Texture(_)))
+    }
+
+    /// True if shading must look for holes or relief.
+    pub(crate) fn needs_details(&self) -> bool {
+        self.opacity.is_some() || self.relief.is_some()
     }
 
     /// What passes of light where so much of the surface is there: what goes through that, and what goes beside it.
@@ -65,9 +123,12 @@ impl Material {
         self.transparency * opacity + (Rgb::WHITE - opacity)
     }
 
-    /// True if a texture decides about colour or opacity.
-    pub(crate) fn is_textured(&self) -> bool {
-        matches!(self.color, Paint::Texture(_)) || matches!(self.opacity, Some(Paint::Texture(_)))
+    /// True if the side that a ray came from gives off light.
+    pub(crate) fn glows(&self, from_outside: bool) -> bool {
+        self.emission.is_some_and(|emission| match emission.sides {
+            Sides::Both => true,
+            Sides::Front => from_outside,
+        })
     }
 
     /// True if what a closed shape of it encloses bends light or takes it away.
@@ -83,6 +144,55 @@ impl Material {
             None => Rgb::WHITE,
         }
     }
+}
+
+impl Passage {
+    fn of(kind: &MaterialKind, integrator: Integrator) -> Passage {
+        match integrator {
+            Integrator::Path { .. } => Passage::of_path(kind),
+            // Classic shadows go straight through everything clear.
+            Integrator::Whitted
+            | Integrator::AmbientOcclusion { .. }
+            | Integrator::Normals
+            | Integrator::Depth
+            | Integrator::Uv => Passage::Even,
+        }
+    }
+
+    /// Under path tracing only that lets shadow rays through which scattering passes straight, too: the two ways to find a lamp must
+    /// agree. What bends light hides lamps; glowing shapes are found through it.
+    fn of_path(kind: &MaterialKind) -> Passage {
+        match kind {
+            MaterialKind::Classic(classic) if classic.transparency.is_black() => Passage::Closed,
+            // What is scaled down is not the same everywhere.
+            MaterialKind::Classic(classic) => match (classic.ior, may_exceed_one(classic)) {
+                (None, false) => Passage::Even,
+                (None, true) => Passage::Thin,
+                (Some(_), false) if !classic.fresnel => Passage::EvenSheets,
+                (Some(_), _) => Passage::Sheets,
+            },
+            MaterialKind::Glass(glass) if glass.thin => Passage::Thin,
+            MaterialKind::Glass(_) => Passage::Sheets,
+            MaterialKind::Principled(principled) if principled.transmission == Paint::Color(Rgb::BLACK) => {
+                Passage::Closed
+            }
+            MaterialKind::Principled(principled) if principled.thin => Passage::Thin,
+            MaterialKind::Principled(_) => Passage::Sheets,
+            MaterialKind::Matte(_) | MaterialKind::Metal(_) | MaterialKind::Plastic(_) | MaterialKind::Mirror(_) => {
+                Passage::Closed
+            }
+        }
+    }
+}
+
+/// True if the parts of a classic surface may add up to more than it gets, whatever colors shapes bring.
+fn may_exceed_one(classic: &Classic) -> bool {
+    let color = match classic.color {
+        Paint::Color(color) => color.map(|c| c.max(1.0)),
+        Paint::Texture(_) => Rgb::WHITE,
+    };
+    let opaque = (Rgb::WHITE - classic.transparency) * (color * classic.diffuse + classic.specular);
+    (opaque + classic.reflection + classic.transparency).max_component() > 1.0
 }
 
 /// The direction of a mirror image: `direction` reflected at a surface with unit normal `normal`.
@@ -147,6 +257,7 @@ pub(crate) enum Side {
 mod tests {
     use super::*;
     use durer_math::functions::{asin, cos, sin};
+    use durer_scene::{Classic, MaterialKind};
 
     fn at_angle(degrees: f64) -> DVec3 {
         let a = degrees.to_radians();
@@ -206,7 +317,10 @@ mod tests {
     fn attenuation_gives_its_color_at_its_distance_and_the_square_at_twice_that() {
         let color = Rgb::new(0.5, 0.8, 1.0);
         let attenuation = Some(durer_scene::Attenuation { color, distance: 3.0 });
-        let material = Material::compile(&durer_scene::Material { attenuation, ..Default::default() });
+        let kind = MaterialKind::Classic(Classic { attenuation, ..Default::default() });
+        let scene = durer_scene::Scene::default();
+        let material = durer_scene::Material::of(kind);
+        let material = Material::compile(&material, &mut Means::new(&scene), Integrator::Whitted);
         let near = |a: Rgb, b: Rgb| (a - b).map(f32::abs).max_component() < 1e-6;
         assert!(near(material.transmittance(3.0), color) && near(material.transmittance(6.0), color * color));
         assert_eq!(material.transmittance(f64::INFINITY), Rgb::new(0.0, 0.0, 1.0));

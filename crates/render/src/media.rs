@@ -1,9 +1,13 @@
-//! Which media a ray is inside: the innermost one decides how light bends and what it loses.
+//! Which media a ray is inside: one of them decides how light bends and what it loses, the innermost of those of the highest
+//! priority.
 //!
-//! Media may overlap and nest. The one entered last is the innermost; leaving one that is not innermost changes nothing
+//! Priorities let things overlap that touch in truth, such as a glass and the wine in it (Schmidt and Budge, "Simple Nested
+//! Dielectrics in Ray Traced Images", 2002): the glass goes a little into the wine and, of the higher priority, hides what of
+//! the wine's surface is in it. Media may overlap and nest. The one entered last is the innermost; leaving one that is not innermost changes nothing
 //! for the ray until the others are left, too.
 
 use crate::compile::CompiledScene;
+use crate::materials::Material;
 use durer_geometry::{Primitive, Ray};
 use durer_math::Rgb;
 
@@ -65,17 +69,36 @@ impl Media {
         self.inside.is_empty()
     }
 
-    /// The index of refraction here: that of the innermost medium that has one, 1 outside of all.
-    pub(crate) fn ior(&self, scene: &CompiledScene) -> f64 {
-        self.inside.iter().rev().find_map(|&id| scene.material(id).ior).unwrap_or(1.0)
+    /// The medium that decides here: of those of the highest priority the innermost.
+    pub(crate) fn ruling(&self, scene: &CompiledScene) -> Option<u32> {
+        self.highest(scene, |_| true)
     }
 
-    /// What is left of light after a length of the innermost medium.
+    /// The index of refraction here: that of the ruling medium among those that have one, 1 outside of all.
+    pub(crate) fn ior(&self, scene: &CompiledScene) -> f64 {
+        let ruling = self.highest(scene, |material| material.ior.is_some());
+        ruling.and_then(|id| scene.material(id).ior).unwrap_or(1.0)
+    }
+
+    /// What is left of light after a length of the ruling medium.
     pub(crate) fn transmittance(&self, scene: &CompiledScene, length: f64) -> Rgb {
-        match self.inside.last() {
-            Some(&id) => scene.material(id).transmittance(length),
+        match self.ruling(scene) {
+            Some(id) => scene.material(id).transmittance(length),
             None => Rgb::WHITE,
         }
+    }
+
+    /// The innermost of those of the highest priority among these.
+    #[inline]
+    fn highest(&self, scene: &CompiledScene, counts: impl Fn(&Material) -> bool) -> Option<u32> {
+        let mut best: Option<(i32, u32)> = None;
+        for &id in &self.inside {
+            let material = scene.material(id);
+            if counts(material) && best.is_none_or(|(priority, _)| material.priority >= priority) {
+                best = Some((material.priority, id));
+            }
+        }
+        best.map(|(_, id)| id)
     }
 }
 

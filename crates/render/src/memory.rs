@@ -13,6 +13,8 @@ use std::sync::Arc;
 
 /// Of a pixel: its color on the film, what is known of it while it is rendered, and the bytes of the file.
 const PIXEL: u64 = 80;
+/// Of the sums of a pixel's samples, and of what is to be done in a pass: on the film, and the bytes of a checkpoint.
+const SUMS: u64 = 2 * 76 + 16;
 /// Of a sample that pixels share: what is seen there, by its place, and its share in the pixel.
 const SHARED_SAMPLE: u64 = 160;
 /// Of a sample that is kept for a filter, twice.
@@ -32,7 +34,11 @@ pub fn memory_needed(scene: &Scene) -> u64 {
     let images: u64 = scene.images.iter().map(|image| image.bitmap.memory()).sum();
     let primitives = scene.primitives();
     let built = [
-        scene.picture.pixels().saturating_mul(PIXEL),
+        scene.picture.pixels().saturating_mul(if scene.render.integrator.takes_samples() {
+            PIXEL + SUMS
+        } else {
+            PIXEL
+        }),
         primitives.placed.saturating_add(primitives.operands).saturating_mul(PLACED),
         primitives.triangles.saturating_mul(TRIANGLE),
         primitives.particles.saturating_mul(PARTICLE),
@@ -58,6 +64,9 @@ fn samples_together(settings: &RenderSettings, width: u32, height: u32) -> u64 {
 
 /// Of a pixel that takes all samples that it may, until it is finished.
 fn bytes_of_samples(settings: &RenderSettings) -> u64 {
+    if settings.integrator.takes_samples() {
+        return 0;
+    }
     let kept = |samples: u64| if settings.filter == PixelFilter::Box { 0 } else { samples.saturating_mul(KEPT_SAMPLE) };
     let four_to_the = |power: u32| 4_u64.saturating_pow(power);
     match settings.antialias {
@@ -76,6 +85,7 @@ fn bytes_of_samples(settings: &RenderSettings) -> u64 {
 /// Of what is known of things that may be small in the picture.
 fn small_things(scene: &Scene, things: u64) -> u64 {
     match scene.render.antialias {
+        _ if scene.render.integrator.takes_samples() => 0,
         Antialias::Adaptive { .. } => things.min(MOST_THINGS).saturating_mul(SMALL_THING),
         Antialias::None
         | Antialias::Grid { .. }

@@ -34,6 +34,8 @@ pub enum Source {
     Specular(usize),
     /// An emitter that was aimed at: the light with this index, or a shape or the background.
     Light(Option<usize>),
+    /// What an integrator that computes no light shows of a surface: its normal, how far away it is …
+    Shown,
 }
 
 /// Why a ray that a surface asks for was not traced.

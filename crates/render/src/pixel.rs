@@ -2,6 +2,7 @@
 
 use crate::antialias::{Antialias, Sample, Samples};
 use crate::compile::CompiledScene;
+use crate::eye::begin;
 use crate::film::Account;
 use crate::first_hits::FirstRays;
 use crate::holes::Known;
@@ -50,11 +51,10 @@ impl<I: Integrator> Samples for Gathered<'_, I> {
             (None, Some(vantage)) => Known::Vantage(vantage),
             (None, None) => Known::Nothing,
         };
-        let ray = match known.seen() {
-            Some(seen) => seen.ray(self.scene, at),
-            None => self.scene.camera.ray(at),
+        let (ray, sampler) = match known.seen() {
+            Some(seen) => (seen.ray(self.scene, at), Sampler::of_place(self.scene.settings.seed, at)),
+            None => begin(self.scene, at),
         };
-        let sampler = Sampler::of_place(0, at);
         let mut color = self.integrator.radiance(self.scene, &ray, known, &sampler, &mut self.account.rays);
         if !color.is_finite() {
             self.account.bad_sample(at);

@@ -14,13 +14,13 @@ use std::collections::VecDeque;
 
 /// A filter, compiled: what a sample counts at a distance from the middle of a pixel, along one axis.
 #[derive(Clone, Copy, Debug)]
-struct Kernel {
-    filter: PixelFilter,
+pub(crate) struct Kernel {
+    pub(crate) filter: PixelFilter,
 }
 
 impl Kernel {
     /// Up to where it is not 0, in pixels from the middle.
-    fn radius(self) -> f64 {
+    pub(crate) fn radius(self) -> f64 {
         match self.filter {
             PixelFilter::Box => 0.5,
             PixelFilter::Tent { radius }
@@ -31,7 +31,7 @@ impl Kernel {
     }
 
     /// True if a pixel is the mean of its own area.
-    fn is_box(self) -> bool {
+    pub(crate) fn is_box(self) -> bool {
         self.filter == PixelFilter::Box
     }
 
@@ -40,7 +40,7 @@ impl Kernel {
         (self.radius() - 0.5).ceil() as u32
     }
 
-    fn at(self, distance: f64) -> f64 {
+    pub(crate) fn at(self, distance: f64) -> f64 {
         let x = distance.abs();
         if x >= self.radius() {
             return 0.0;

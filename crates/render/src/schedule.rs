@@ -6,30 +6,40 @@ use crate::antialias::pov::{Pov1, Pov2};
 use crate::antialias::{Antialias, Rows, Splat, grid::Grid, recursive::Recursive};
 use crate::compile::CompiledScene;
 use crate::eye::SceneEye;
-use crate::film::{Account, Film, Region, Tile};
+use crate::film::{Account, Film, Region, SampleRange, Tile};
 use crate::first_hits::FirstHits;
-use crate::integrators::whitted::Whitted;
+use crate::integrators::ambient_occlusion::AmbientOcclusion;
+use crate::integrators::path::PathTracer;
+use crate::integrators::sharp::Sharp;
 use crate::memory::rows_at_a_time;
+use crate::passes::{Goal, render_samples};
 use crate::pixel::render_pixel;
 use crate::reconstruct::{Reconstruction, color_of, normalize};
 use durer_math::Rgb;
-use durer_scene::PixelFilter;
+use durer_scene::{Integrator, PixelFilter};
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 
-/// How to go about rendering; changes no pixel.
+/// What is to be rendered, and how to go about it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RenderOptions {
-    /// Number of threads; `None` takes those of [`with_threads`] if it is called in there, else one for each core.
+    /// Number of threads; `None` takes those of [`with_threads`] if it is called in there, else one for each core. It changes
+    /// no pixel.
     pub threads: Option<usize>,
     /// Part of the picture to render; `None` renders all of it.
     pub region: Option<Region>,
+    /// For integrators that take samples: exactly these of each pixel, whatever the scene says of noise and time. `None`
+    /// takes what the scene says.
+    pub samples: Option<SampleRange>,
+    /// For integrators that take samples: know light that met one surface at most apart. It changes no pixel.
+    pub direct: bool,
 }
 
 /// Hears of progress, and may stop the rendering. Called from several threads.
 pub trait Progress: Sync {
-    /// So many pixels of so many are finished.
-    fn finished(&self, _pixels: u64, _of: u64) {}
+    /// So much of so much is done: pixels finished, or samples taken. As long as it cannot be known how many samples there
+    /// will be, the second number is an estimate.
+    fn finished(&self, _done: u64, _of: u64) {}
 
     /// The film with what is finished so far. Other threads that have finished something wait until this returns.
     fn advanced(&self, _film: &Film) {}
@@ -37,6 +47,12 @@ pub trait Progress: Sync {
     /// True stops the rendering after what is being worked on.
     fn stop(&self) -> bool {
         false
+    }
+
+    /// Seconds since some moment before the rendering began, for scenes with a limit of time; without a clock there is no
+    /// such limit.
+    fn elapsed(&self) -> Option<f64> {
+        None
     }
 }
 
@@ -54,6 +70,10 @@ pub enum RenderError {
         /// Width and height of the picture.
         picture: (u32, u32),
     },
+    /// The range of samples is empty, or the integrator with this name takes no samples that could be chosen from.
+    NoSamples(&'static str),
+    /// The film was made by another integrator.
+    OtherFilm,
     /// The system refused to start the threads.
     Threads(String),
 }
@@ -64,6 +84,10 @@ impl std::fmt::Display for RenderError {
             RenderError::RegionOutside { region: Region { x, y, width, height }, picture: (w, h) } => {
                 write!(f, "the region {x},{y},{width},{height} does not lie within the picture of {w}×{h} pixels")
             }
+            RenderError::NoSamples(integrator) => {
+                write!(f, "the range of samples is empty, or `{integrator}` takes none that could be chosen from")
+            }
+            RenderError::OtherFilm => write!(f, "the film was made by another integrator"),
             RenderError::Threads(why) => write!(f, "cannot start threads: {why}"),
         }
     }
@@ -88,7 +112,13 @@ pub fn with_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + 
 
 /// Renders the scene, or a region of it. If `progress` stops it, the film holds what was finished.
 pub fn render(scene: &CompiledScene, options: &RenderOptions, progress: &dyn Progress) -> Result<Film, RenderError> {
-    render_on(scene, Film::new(region_of(scene, options)?), options, progress)
+    let region = region_of(scene, options)?;
+    let film = match (samples_of(scene, options)?, options.samples) {
+        (Some(samples), _) => Film::of_samples(region, samples, options.direct),
+        (None, None) => Film::new(region),
+        (None, Some(_)) => return Err(RenderError::NoSamples(scene.settings.integrator.word())),
+    };
+    render_on(scene, film, options, progress)
 }
 
 /// Goes on with a film of the same scene until all of it is finished, or `progress` stops it. What is on it already is not
@@ -97,8 +127,8 @@ pub fn render(scene: &CompiledScene, options: &RenderOptions, progress: &dyn Pro
 ///
 /// # Errors
 ///
-/// The film's region does not lie in the picture, or the system refused to start the threads. The region in `options` does
-/// not matter.
+/// The film's region does not lie in the picture, it was made by another integrator, or the system refused to start the
+/// threads. The region in `options` does not matter; the samples should be those that the film was begun with.
 pub fn render_on(
     scene: &CompiledScene,
     film: Film,
@@ -107,9 +137,49 @@ pub fn render_on(
 ) -> Result<Film, RenderError> {
     let region = Some(film.region());
     region_of(scene, &RenderOptions { region, ..*options })?;
+    let samples = samples_of(scene, options)?;
+    if samples.is_some() != film.sums().is_some() {
+        return Err(RenderError::OtherFilm);
+    }
     let mut film = film;
-    with_pool(options, || with_antialias(scene, RenderAll { scene, film: &mut film, progress }))?;
+    with_pool(options, || match samples {
+        None => with_antialias(scene, RenderAll { scene, film: &mut film, progress }),
+        Some(samples) => {
+            let settings = &scene.settings;
+            let (noise, time) = if options.samples.is_some() { (None, None) } else { (settings.noise, settings.time) };
+            take_samples(scene, Goal { samples, noise, time }, &mut film, progress);
+        }
+    })?;
     Ok(film)
+}
+
+/// The samples that are to be taken, of integrators that take any.
+fn samples_of(scene: &CompiledScene, options: &RenderOptions) -> Result<Option<SampleRange>, RenderError> {
+    let integrator = &scene.settings.integrator;
+    if !integrator.takes_samples() {
+        return Ok(None);
+    }
+    let samples = options.samples.unwrap_or(SampleRange { start: 0, end: scene.settings.samples_a_pixel() });
+    if samples.count() == 0 { Err(RenderError::NoSamples(integrator.word())) } else { Ok(Some(samples)) }
+}
+
+/// Takes samples with the integrator that the scene wants.
+fn take_samples(scene: &CompiledScene, goal: Goal, film: &mut Film, progress: &dyn Progress) {
+    match scene.settings.integrator {
+        Integrator::Path { max_depth, clamp } => {
+            render_samples((scene, &PathTracer { max_depth, clamp }), goal, film, progress);
+        }
+        Integrator::AmbientOcclusion { distance } => {
+            render_samples(
+                (scene, &AmbientOcclusion { distance: distance.unwrap_or(f64::INFINITY) }),
+                goal,
+                film,
+                progress,
+            );
+        }
+        // They look where anti-aliasing says.
+        Integrator::Whitted | Integrator::Normals | Integrator::Depth | Integrator::Uv => {}
+    }
 }
 
 /// Runs `work` in the pool that the options ask for.
@@ -181,7 +251,7 @@ impl WithAntialias for RenderAll<'_> {
         let RenderAll { scene, film, progress } = self;
         let mut reconstruction = Reconstruction::new(rows, filter, film.region(), scene.picture_size());
         let stop = || progress.stop();
-        let eye = SceneEye { scene, stop: &stop };
+        let eye = SceneEye::until(scene, &stop);
         let at_a_time = rows_at_a_time(&scene.settings, film.region().width);
         for band in film.unfinished_bands() {
             let mut tile = Tile::new(band);
@@ -281,12 +351,13 @@ pub(crate) fn in_tiles<G: Send, T: Send>(
 
 fn render_tile<A: Antialias>(scene: &CompiledScene, region: Region, antialias: &A) -> Tile {
     let mut tile = Tile::new(region);
+    let integrator = Sharp::of(scene);
     let mut first_hits = FirstHits::default();
     for part in FirstHits::parts(scene, region) {
         first_hits.find(scene, antialias, part);
         part.pixel_places().enumerate().for_each(|(index, (x, y))| {
             let known = first_hits.of_pixel(index);
-            let pixel = render_pixel(scene, (&Whitted, antialias), (x, y), known, &mut tile.account);
+            let pixel = render_pixel(scene, (&integrator, antialias), (x, y), known, &mut tile.account);
             let color = if pixel.has_bad_samples { without_bad_samples(scene, antialias, (x, y)) } else { pixel.color };
             tile.pixels.push(color);
             tile.depths.push(pixel.depth);

@@ -1,21 +1,37 @@
 //! A hit, with all that shading needs to know about it.
 
-use crate::compile::{Colors, CompiledScene, Origin, PlacedObject};
+mod relief;
+mod textured;
+
+use crate::bsdf::Bsdf;
+use crate::compile::{CompiledScene, PlacedObject};
+use crate::frame::Frame;
 use crate::materials::{Material, Side, on_side, reflect};
-use crate::textures::TexturePoint;
+use crate::surfaces::Indices;
 use durer_geometry::{Hit, Ray, Surface};
-use durer_math::{DVec2, DVec3, Rgb, functions::pow_wide};
+use durer_math::{DVec3, Rgb, functions::pow_wide};
 use durer_scene::Paint;
+
+pub(crate) use relief::tangents;
+pub(crate) use textured::{Textured, within_one};
+
+/// The sine of the flattest angle under which normals that are not the surface's own are seen.
+const FLAT: f64 = 1e-3;
 
 /// A point on a surface, seen from one side.
 pub(crate) struct Shading<'a> {
+    hit: Hit,
     pub(crate) primitive: u32,
     pub(crate) surface: Surface,
     pub(crate) material: &'a Material,
+    /// Its index in the scene.
+    pub(crate) material_id: u32,
     /// The colour there.
     pub(crate) color: Rgb,
     /// How much of the surface is there; `None` if all of it.
     pub(crate) opacity: Option<Rgb>,
+    /// Light that it gives off by itself to where the ray came from.
+    pub(crate) emission: Rgb,
     /// The direction of the ray that came here.
     pub(crate) direction: DVec3,
     /// The surface's unit normal on the side that the ray came from: rays start on either side of the surface by it.
@@ -42,20 +58,33 @@ impl<'a> Shading<'a> {
         if object.looks.has_details() {
             return Shading::in_detail(scene, ray, hit, &surface);
         }
-        let material = &scene.materials[object.looks.material as usize];
-        let color = scene.textures.color(material.color, &Textured { scene, object, surface: &surface, hit });
-        Shading::of(object, ray, hit, &surface, material, color)
+        let id = object.looks.material;
+        let material = &scene.materials[id as usize];
+        let textured = Textured { scene, object, surface: &surface, hit };
+        let color = scene.textures.color(material.color, &textured);
+        let mut shading = Shading::of(object, ray, hit, &surface, (id, material), color);
+        if material.glows(shading.from_outside) {
+            shading.emission = textured.emission(material);
+        }
+        shading
     }
 
     /// The same for surfaces of which the parts differ, or that are shaded by other normals than their own, or have holes.
     #[inline(never)]
     fn in_detail(scene: &'a CompiledScene, ray: &Ray, hit: &Hit, surface: &Surface) -> Shading<'a> {
         let object = &scene.objects[hit.primitive as usize];
-        let material = &scene.materials[scene.material_at(hit) as usize];
+        let id = scene.material_at(hit);
+        let material = &scene.materials[id as usize];
         let textured = Textured { scene, object, surface, hit };
-        let mut shading = Shading::of(object, ray, hit, surface, material, textured.color(material.color));
+        let mut shading = Shading::of(object, ray, hit, surface, (id, material), textured.color(material.color));
         shading.opacity = material.opacity.map(|paint| textured.opacity(paint));
+        if material.glows(shading.from_outside) {
+            shading.emission = textured.emission(material);
+        }
         shading.smooth = smooth_normal(scene, surface, hit, shading.face, ray.direction);
+        if let Some(relief) = &material.relief {
+            shading.smooth = relief::normal(relief, &textured, &shading).or(shading.smooth);
+        }
         shading
     }
 
@@ -66,16 +95,19 @@ impl<'a> Shading<'a> {
         ray: &Ray,
         hit: &Hit,
         surface: &Surface,
-        material: &'a Material,
+        (material_id, material): (u32, &'a Material),
         color: Rgb,
     ) -> Shading<'a> {
         let from_outside = ray.direction.dot(surface.normal) < 0.0;
         Shading {
+            hit: *hit,
             primitive: hit.primitive,
             surface: *surface,
             material,
+            material_id,
             color,
             opacity: None,
+            emission: Rgb::BLACK,
             direction: ray.direction,
             face: if from_outside { surface.normal } else { -surface.normal },
             smooth: None,
@@ -128,6 +160,38 @@ impl<'a> Shading<'a> {
         if self.smooth.is_some() { on_side(direction, self.face, side) } else { direction }
     }
 
+    /// How light is scattered here, between media of these indices of refraction, and the frame in which it is.
+    pub(crate) fn scattering(&self, scene: &CompiledScene, indices: Indices) -> (Frame, Bsdf) {
+        let object = &scene.objects[self.primitive as usize];
+        let textured = Textured { scene, object, surface: &self.surface, hit: &self.hit };
+        scene.scatterings[self.material_id as usize].at(self, &textured, indices)
+    }
+
+    /// The part of white light from everywhere that the surface gives back or lets through, about, as if nothing were before it.
+    pub(crate) fn albedo(&self, scene: &CompiledScene) -> Rgb {
+        let behind = self.bounds_medium.then(|| scene.material(self.primitive).ior.unwrap_or(1.0));
+        let (frame, bsdf) = self.scattering(scene, Indices { before: 1.0, behind });
+        within_one(bsdf.albedo(self.out_in(&frame)))
+    }
+
+    /// True if there is nothing to see where what it is filled with makes no difference.
+    pub(crate) fn is_only_a_boundary(&self, scene: &CompiledScene) -> bool {
+        scene.scatterings[self.material_id as usize].is_only_a_boundary()
+    }
+
+    /// What goes straight through a sheet in the midst of a medium of this index of refraction.
+    pub(crate) fn straight(&self, scene: &CompiledScene, around: f64) -> Rgb {
+        let (frame, bsdf) = self.scattering(scene, Indices { before: around, behind: None });
+        bsdf.straight(self.out_in(&frame))
+    }
+
+    /// The direction to where the ray came from, in a frame around the normal. Normals that are not the surface's own may be
+    /// seen edge-on or from behind, by a hair: there the surface is taken to be seen at a flat angle.
+    pub(crate) fn out_in(&self, frame: &Frame) -> DVec3 {
+        let out = frame.to_local(-self.direction);
+        if self.smooth.is_some() && out.z < FLAT { DVec3::new(out.x, out.y, FLAT).normalize() } else { out }
+    }
+
     /// Between the normal and the direction to a light; not positive for a light behind the surface, whatever normal
     /// shading has.
     pub(crate) fn cosine(&self, to_light: DVec3) -> f64 {
@@ -155,6 +219,11 @@ pub(crate) fn highlight(shading: &Shading<'_>, to_light: DVec3) -> f32 {
 fn smooth_normal(scene: &CompiledScene, surface: &Surface, hit: &Hit, face: DVec3, direction: DVec3) -> Option<DVec3> {
     let normal = scene.world.shading_normal(surface.point, hit)?;
     let normal = if normal.dot(face) < 0.0 { -normal } else { normal };
+    seen_by(normal, direction)
+}
+
+/// A unit normal, turned just so far that it is not seen from behind by who looks along `direction`.
+fn seen_by(normal: DVec3, direction: DVec3) -> Option<DVec3> {
     let away = normal.dot(direction);
     if away < 0.0 { Some(normal) } else { (normal - direction * away).try_normalize() }
 }
@@ -181,69 +250,6 @@ pub(crate) fn opacity_at(scene: &CompiledScene, hit: &Hit, surface: &Surface) ->
     let object = &scene.objects[hit.primitive as usize];
     let material = &scene.materials[scene.material_at(hit) as usize];
     material.opacity.map_or(Rgb::WHITE, |paint| Textured { scene, object, surface, hit }.opacity(paint))
-}
-
-/// A hit as textures see it.
-struct Textured<'a> {
-    scene: &'a CompiledScene,
-    object: &'a PlacedObject,
-    surface: &'a Surface,
-    hit: &'a Hit,
-}
-
-impl Textured<'_> {
-    /// What the part that was hit comes from, if there is more to say of it.
-    fn origin(&self) -> Option<&Origin> {
-        Some(self.scene.details(self.hit.primitive)?.origin(self.hit.crossing.part).1)
-    }
-
-    /// Colours of the surface's own take the place of a plain colour, and multiply a texture's.
-    fn color(&self, paint: Paint) -> Rgb {
-        match (self.own_color(), paint) {
-            (None, _) => self.scene.textures.color(paint, self),
-            (Some(own), Paint::Color(_)) => own,
-            (Some(own), Paint::Texture(_)) => own * self.scene.textures.color(paint, self),
-        }
-    }
-
-    fn own_color(&self) -> Option<Rgb> {
-        let origin = self.origin()?;
-        match &origin.colors {
-            Colors::None => None,
-            Colors::Vertices(data) => {
-                let weights = self.scene.world.vertex_weights(self.surface.point, self.hit)?;
-                let corners = data.triangles[(self.hit.crossing.part - origin.first_part) as usize]
-                    .map(|vertex| data.colors[vertex as usize]);
-                // In triangles as thin as the rounding of a point, weights may be anything.
-                let weights = weights.map(|weight| weight.clamp(0.0, 1.0) as f32);
-                let weighed = corners.into_iter().zip(weights).map(|(color, weight)| color * weight);
-                Some(weighed.fold(Rgb::BLACK, |sum, color| sum + color))
-            }
-            Colors::Particles(colors) => colors.get(self.scene.world.particle_of(self.hit)? as usize).copied(),
-        }
-    }
-
-    /// From 0 to 1, whatever an image may hold.
-    fn opacity(&self, paint: Paint) -> Rgb {
-        self.scene.textures.color(paint, self).map(|c| if c > 0.0 { c.min(1.0) } else { 0.0 })
-    }
-}
-
-impl TexturePoint for Textured<'_> {
-    fn point(&self) -> DVec3 {
-        let point = match &self.object.object_from_world {
-            Some(map) => map.transform_point3(self.surface.point),
-            None => self.surface.point,
-        };
-        match self.origin().and_then(|operand| operand.operand_from_solid.as_ref()) {
-            Some(map) => map.transform_point3(point),
-            None => point,
-        }
-    }
-
-    fn uv(&self) -> DVec2 {
-        self.scene.world.uv(self.surface.point, self.hit)
-    }
 }
 
 #[cfg(test)]

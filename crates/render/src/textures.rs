@@ -6,6 +6,7 @@
 
 mod cells;
 mod checker;
+mod environment;
 mod gradient;
 mod image;
 mod marble;
@@ -16,6 +17,8 @@ mod stripes;
 mod texels;
 mod wood;
 mod wrap;
+
+pub(crate) use environment::Environment;
 
 use checker::Checker;
 use durer_math::{DAffine3, DVec2, DVec3, Rgb};

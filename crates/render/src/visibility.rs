@@ -1,8 +1,9 @@
 //! How much of a light gets through to a point.
 
 use crate::compile::{CLEAR, CompiledScene, OPAQUE};
+use crate::materials::Passage;
 use crate::media::Media;
-use crate::shading::opacity_at;
+use crate::shading::{Shading, opacity_at};
 use durer_geometry::{Hit, Primitive, Ray, Surface, Vantage};
 use durer_math::Rgb;
 
@@ -35,7 +36,7 @@ pub(crate) fn visibility(
         clear = true;
         left *= match scene.objects[id as usize].looks.is_uneven {
             false => through(scene.material(id).passed_if_even, primitive.count_crossings(ray, reach)),
-            true => through_each(scene, id, primitive, ray, reach),
+            true => through_each(scene, id, primitive, media.ior(scene), ray, reach),
         };
         left.is_black()
     });
@@ -53,16 +54,31 @@ fn through(passed: Rgb, surfaces: u32) -> Rgb {
     (0..surfaces).fold(Rgb::WHITE, |left, _| left * passed)
 }
 
-/// What is left behind all surfaces of a primitive, each of which may let something else pass.
-fn through_each(scene: &CompiledScene, id: u32, primitive: &Primitive, ray: &Ray, reach: f64) -> Rgb {
+/// What is left behind all surfaces of a primitive, each of which may let something else pass. What lets light go straight
+/// does not change the index of refraction around it: that is the same on all of the way.
+fn through_each(scene: &CompiledScene, id: u32, primitive: &Primitive, around: f64, ray: &Ray, reach: f64) -> Rgb {
     let mut left = Rgb::WHITE;
-    let _ = primitive.each_crossing(ray, reach, |_, crossing, surface| {
+    let _ = primitive.each_crossing(ray, reach, |ray, crossing, surface| {
         let hit = Hit { crossing: *crossing, primitive: id };
-        let material = &scene.materials[scene.material_at(&hit) as usize];
-        left *= material.passed(opacity_at(scene, &hit, surface));
+        left *= passed(scene, ray, &hit, surface, around);
         left.is_black()
     });
     left
+}
+
+/// What passes of light at a surface: what goes through where it is, and what goes past it where it is not.
+fn passed(scene: &CompiledScene, ray: &Ray, hit: &Hit, surface: &Surface, around: f64) -> Rgb {
+    let material = &scene.materials[scene.material_at(hit) as usize];
+    let opacity = opacity_at(scene, hit, surface);
+    let is_medium = scene.objects[hit.primitive as usize].looks.is_medium;
+    let straight = match material.passage {
+        Passage::Even => return material.passed(opacity),
+        Passage::EvenSheets | Passage::Sheets if is_medium => Rgb::BLACK,
+        Passage::EvenSheets => return material.passed(opacity),
+        Passage::Sheets | Passage::Thin => Shading::at(scene, ray, hit).straight(scene, around),
+        Passage::Closed => Rgb::BLACK,
+    };
+    straight * opacity + (Rgb::WHITE - opacity)
 }
 
 /// What media leave of light: goes from surface to surface, for the innermost medium decides. No medium is entered through

@@ -15,6 +15,7 @@ mod materials;
 mod meshes;
 mod objects;
 mod particles;
+mod remarks;
 mod settings;
 mod solids;
 mod textures;
@@ -36,6 +37,13 @@ impl CheckedScene {
     /// The scene, to be changed and checked again.
     pub fn into_scene(self) -> Scene {
         self.0
+    }
+
+    /// What is worth saying of it although it can be rendered: what will not look as it was probably meant.
+    pub fn remarks(&self) -> Vec<Problem> {
+        let mut checker = Checker::new(&self.0);
+        remarks::remark(&mut checker);
+        checker.problems
     }
 }
 

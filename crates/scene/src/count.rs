@@ -35,6 +35,7 @@ impl Scene {
     /// Rays of the eye in the whole picture, as many as anti-aliasing can ask for.
     pub fn most_samples(&self) -> u64 {
         let in_a_pixel = match self.render.antialias {
+            _ if self.render.integrator.takes_samples() => self.render.samples_a_pixel().into(),
             Antialias::None => 1,
             Antialias::Grid { n } => u64::from(n).saturating_mul(n.into()),
             // Four in each part of a pixel, which may be divided by four again and again.

@@ -10,22 +10,27 @@ mod data;
 mod light;
 mod material;
 mod mesh;
+mod metals;
 mod object;
 mod particles;
 mod settings;
 mod texture;
 mod transform;
 
-pub use camera::{Camera, Projection};
+pub use camera::{Camera, Focus, Lens, Projection};
 pub use check::{CheckedScene, Place, Problem, Step};
 pub use count::Primitives;
 pub use data::{Data, DataFile, Instances, Sizes};
-pub use light::{Falloff, Light, LightKind};
-pub use material::{Attenuation, Material};
+pub use light::{Falloff, Light, LightKind, Strength};
+pub use material::{
+    Attenuation, Bump, Classic, Conductor, Emission, Glass, Material, MaterialKind, Matte, Metal, Mirror, NormalMap,
+    Plastic, Principled, Relief, Sides,
+};
 pub use mesh::{Import, Mesh, MeshData, MeshNormals, MeshPart};
+pub use metals::{MetalName, reflectance};
 pub use object::{Object, ObjectKind, Operation, Shape, Solid};
 pub use particles::{ParticleKind, Particles};
-pub use settings::{Antialias, Background, Fog, Picture, PixelFilter, RenderSettings, Trees};
+pub use settings::{Antialias, Background, Environment, Fog, Integrator, Picture, PixelFilter, RenderSettings, Trees};
 pub use texture::{
     Channels, Encoding, Filter, ImageAsset, ImageId, ImageTexture, Mapping, MaterialId, Paint, Pattern, Space, Texture,
     TextureId, Wrap,

@@ -1,6 +1,7 @@
 //! Settings of the whole picture.
 
-use durer_imaging::Transfer;
+use crate::ImageId;
+use durer_imaging::{ToneMapping, Transfer};
 use durer_math::Rgb;
 
 /// Size and encoding of the picture.
@@ -12,6 +13,10 @@ pub struct Picture {
     pub height: u32,
     /// How linear light becomes the numbers of an 8- or 16-bit file.
     pub transfer: Transfer,
+    /// Multiplies the light by 2 to the power of this, in 8- and 16-bit files; stops, as photographers count.
+    pub exposure: f32,
+    /// How light above 1 is brought into what 8- and 16-bit files can hold.
+    pub tone_mapping: ToneMapping,
 }
 
 impl Picture {
@@ -23,7 +28,7 @@ impl Picture {
 
 impl Default for Picture {
     fn default() -> Picture {
-        Picture { width: 640, height: 480, transfer: Transfer::Srgb }
+        Picture { width: 640, height: 480, transfer: Transfer::Srgb, exposure: 0.0, tone_mapping: ToneMapping::None }
     }
 }
 
@@ -40,9 +45,25 @@ impl Picture {
 /// How the picture is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RenderSettings {
-    /// Longest chain of rays: the eye's ray has depth 1, and rays deeper than this are black.
+    /// What is computed.
+    pub integrator: Integrator,
+    /// Samples a pixel, for integrators that sample at random: exactly so many, or with a `noise` or `time` at most. `None`
+    /// is [`RenderSettings::SAMPLES`] of them, or [`RenderSettings::MOST_SAMPLES`] with a `noise` or `time`.
+    pub samples: Option<u32>,
+    /// Samples are taken until the estimated error of each part of the picture is below this: the standard error of pixels
+    /// over the root of their brightness, as it is seen on a screen; in white, 0.01 is one in a hundred. `None` takes
+    /// `samples` everywhere.
+    pub noise: Option<f32>,
+    /// No samples are begun after this many seconds; `None` sets no limit. The picture then depends on the machine.
+    pub time: Option<f64>,
+    /// Chooses among equally good sequences of random numbers: other seeds, other noise.
+    pub seed: u32,
+    /// Shadow rays to each light that has an area, for each point that `whitted` shades. With 0, what glows lights nothing,
+    /// and lamps with a radius are points.
+    pub light_samples: u32,
+    /// `whitted`: longest chain of rays: the eye's ray has depth 1, and rays deeper than this are black.
     pub max_depth: u32,
-    /// Rays whose weight in the pixel is below this (largest component) are not traced; 0 traces all.
+    /// `whitted`: rays whose weight in the pixel is below this (largest component) are not traced; 0 traces all.
     pub min_weight: f32,
     /// Where in a pixel rays are sent, and how many.
     pub antialias: Antialias,
@@ -55,11 +76,82 @@ pub struct RenderSettings {
 impl Default for RenderSettings {
     fn default() -> RenderSettings {
         RenderSettings {
+            integrator: Integrator::Whitted,
+            samples: None,
+            noise: None,
+            time: None,
+            seed: 0,
+            light_samples: 16,
             max_depth: 5,
             min_weight: 0.001,
             antialias: Antialias::default(),
             filter: PixelFilter::default(),
             trees: Trees::default(),
+        }
+    }
+}
+
+impl RenderSettings {
+    /// Samples a pixel, unless something else is said.
+    pub const SAMPLES: u32 = 64;
+    /// The most samples of a pixel where something else ends them, unless it is said.
+    pub const MOST_SAMPLES: u32 = 4096;
+
+    /// The most samples of a pixel, for integrators that sample at random.
+    pub fn samples_a_pixel(&self) -> u32 {
+        let is_open = self.noise.is_some() || self.time.is_some();
+        self.samples.unwrap_or(if is_open { RenderSettings::MOST_SAMPLES } else { RenderSettings::SAMPLES })
+    }
+}
+
+/// What is computed of a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Integrator {
+    /// Classic ray tracing after Whitted 1980: mirrors, glass and sharp shadows, without noise.
+    #[default]
+    Whitted,
+    /// All the light that there is, by path tracing (Kajiya 1986).
+    Path {
+        /// Longest path, counted in surfaces that light meets on its way from a light to the eye; at least 1.
+        max_depth: u32,
+        /// Samples brighter than this (largest component) are lowered to it, which takes fireflies away and some light with
+        /// them; `None` leaves all as it is.
+        clamp: Option<f32>,
+    },
+    /// How much of the sky each point sees.
+    AmbientOcclusion {
+        /// What is further away hides nothing; `None` for any distance.
+        distance: Option<f64>,
+    },
+    /// The normal of what is seen, as a color.
+    Normals,
+    /// How far away it is.
+    Depth,
+    /// Its texture coordinates, as red and green.
+    Uv,
+}
+
+impl Integrator {
+    /// The path tracer, as it is unless something else is said.
+    pub const PATH: Integrator = Integrator::Path { max_depth: 16, clamp: None };
+
+    /// True if it takes samples at random; the others look where anti-aliasing says.
+    pub fn takes_samples(&self) -> bool {
+        match self {
+            Integrator::Path { .. } | Integrator::AmbientOcclusion { .. } => true,
+            Integrator::Whitted | Integrator::Normals | Integrator::Depth | Integrator::Uv => false,
+        }
+    }
+
+    /// The word for it in scene files and messages.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Integrator::Whitted => "whitted",
+            Integrator::Path { .. } => "path",
+            Integrator::AmbientOcclusion { .. } => "ambient_occlusion",
+            Integrator::Normals => "normals",
+            Integrator::Depth => "depth",
+            Integrator::Uv => "uv",
         }
     }
 }
@@ -172,6 +264,25 @@ pub enum Background {
         /// Seen straight up.
         top: Rgb,
     },
+    /// A picture of all that is around.
+    Image(Environment),
+}
+
+/// An environment map: a picture of all directions, in latitude and longitude, its top straight up.
+///
+/// In a direction d of unit length, turned back by the rotation about +y, stands what the picture shows at
+/// s = (atan2(d.z, d.x) + π) / 2π from its left and t = asin(d.y) / π + 1/2 from below: as
+/// [`Mapping::Spherical`](crate::Mapping::Spherical) has it. Seen from within, it is not mirrored.
+/// Without rotation the middle of the picture is seen toward +x, and what is a quarter of its width left of that toward -z.
+/// Light is linear and may be above 1; 8- and 16-bit files are sRGB.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Environment {
+    /// The picture.
+    pub image: ImageId,
+    /// Turns it about the y axis, counterclockwise as seen from above; 90 brings its middle from +x to -z.
+    pub rotation_degrees: f64,
+    /// Multiplies its light.
+    pub strength: f32,
 }
 
 impl Default for Background {

@@ -163,6 +163,12 @@ pub enum Channels {
     Color,
     /// Its alpha channel, as gray from 0 to 1; 1 if it has none.
     Alpha,
+    /// Its red, as gray.
+    Red,
+    /// Its green, as gray.
+    Green,
+    /// Its blue, as gray.
+    Blue,
 }
 
 /// How a point becomes a place (s, t) on an image.

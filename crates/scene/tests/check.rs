@@ -26,7 +26,11 @@ fn a_good_scene_passes() {
 fn all_problems_are_found_with_their_places() {
     let scene = Scene {
         objects: vec![sphere(-1.0), group(vec![sphere(1.0), sphere(f64::NAN)])],
-        materials: vec![Material { ior: Some(f64::INFINITY), shininess: f32::NAN, ..Material::default() }],
+        materials: vec![Material::of(MaterialKind::Classic(Classic {
+            ior: Some(f64::INFINITY),
+            shininess: f32::NAN,
+            ..Classic::default()
+        }))],
         picture: Picture { width: 0, ..Picture::default() },
         ..Scene::default()
     };
@@ -61,7 +65,7 @@ fn ids_must_be_in_range() {
     let texture_of = |pattern| Texture { name: None, transform: Transform::default(), pattern };
     let scene = Scene {
         objects: vec![Object { material: Some(MaterialId(2)), ..sphere(1.0) }],
-        materials: vec![Material { color: Paint::Texture(TextureId(9)), ..Material::default() }],
+        materials: vec![Material::of(MaterialKind::Mirror(Mirror { color: Paint::Texture(TextureId(9)) }))],
         textures: textures.into_iter().map(texture_of).collect(),
         ..Scene::default()
     };

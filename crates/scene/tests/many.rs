@@ -263,7 +263,7 @@ fn what_is_imported_is_checked() {
     let light = Light {
         name: None,
         color: Rgb::gray(f32::NAN),
-        intensity: 1.0,
+        strength: Strength::Classic(1.0),
         kind: LightKind::Directional { direction: DVec3::X },
     };
     let camera = Some(Camera { up: DVec3::ZERO, ..Camera::default() });
@@ -280,7 +280,11 @@ fn what_is_imported_is_checked() {
 
 #[test]
 fn materials_and_images_have_usable_numbers() {
-    let material = Material { emission: Rgb::gray(-1.0), opacity: Paint::Color(Rgb::gray(2.0)), ..Material::default() };
+    let material = Material {
+        emission: Emission::of(Rgb::gray(-1.0)),
+        opacity: Paint::Color(Rgb::gray(2.0)),
+        ..Material::default()
+    };
     let image = ImageTexture {
         image: ImageId(0),
         mapping: Mapping::Uv,
@@ -305,8 +309,8 @@ fn materials_and_images_have_usable_numbers() {
         [
             "image 0: the image's pixel 0,1 is infinite or not a number",
             "texture 0.image.tint: tint must be finite",
+            "material 0.emission.color: emission must not be negative",
             "material 0.opacity: opacity must not be above 1",
-            "material 0.emission: emission must not be negative",
         ]
     );
 }

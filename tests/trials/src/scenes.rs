@@ -4,12 +4,13 @@ mod looks;
 mod many;
 pub mod maps;
 mod objects;
+mod physical;
 
 use crate::Dice;
 use durer::math::{DVec3, Rgb};
 use durer::scene::{
     Antialias, Background, Camera, Falloff, Fog, Light, LightKind, Picture, PixelFilter, Projection, RenderSettings,
-    Scene, Trees,
+    Scene, Strength, Trees,
 };
 
 /// Which numbers scenes are made of.
@@ -37,23 +38,35 @@ const PIXELS: u32 = 8;
 /// A scene of a few objects with a picture of 8 × 8 pixels. Few do not pass the check.
 pub fn scene(dice: &mut Dice<'_>, temper: Temper) -> Scene {
     let mut maker = Maker { dice, temper };
-    let camera = maker.camera();
-    Scene {
-        camera,
-        picture: Picture { width: PIXELS, height: PIXELS, ..Picture::default() },
-        render: maker.settings(),
-        background: maker.background(),
-        ambient: maker.light_color(),
-        fog: maker.fog(),
-        lights: maker.some(3, Maker::light),
-        images: vec![maker.image()],
-        textures: (0..TEXTURES).map(|before| maker.texture(before)).collect(),
-        materials: (0..MATERIALS).map(|_| maker.material()).collect(),
-        objects: maker.some(5, |maker| maker.object(0)),
-    }
+    let mut scene = maker.classic_scene();
+    maker.make_physical(&mut scene);
+    scene
+}
+
+/// The same scene before anything physical was put onto it, for Whitted's algorithm.
+pub fn classic_scene(dice: &mut Dice<'_>, temper: Temper) -> Scene {
+    Maker { dice, temper }.classic_scene()
 }
 
 impl Maker<'_, '_> {
+    fn classic_scene(&mut self) -> Scene {
+        let maker = self;
+        let camera = maker.camera();
+        Scene {
+            camera,
+            picture: Picture { width: PIXELS, height: PIXELS, ..Picture::default() },
+            render: maker.settings(),
+            background: maker.background(),
+            ambient: maker.light_color(),
+            fog: maker.fog(),
+            lights: maker.some(3, Maker::light),
+            images: vec![maker.image()],
+            textures: (0..TEXTURES).map(|before| maker.texture(before)).collect(),
+            materials: (0..MATERIALS).map(|_| maker.material()).collect(),
+            objects: maker.some(5, |maker| maker.object(0)),
+        }
+    }
+
     fn some<T>(&mut self, most: usize, mut make: impl FnMut(&mut Self) -> T) -> Vec<T> {
         let count = 1 + self.dice.below(most);
         (0..count).map(|_| make(self)).collect()
@@ -161,7 +174,7 @@ impl Maker<'_, '_> {
             false => DVec3::new(self.dice.within(-2.0, 2.0), self.dice.within(-2.0, 2.0), self.dice.within(5.0, 8.0)),
         };
         let look_at = DVec3::new(self.dice.within(-1.0, 1.0), self.dice.within(-1.0, 1.0), 0.0);
-        Some(Camera { position, look_at, up: DVec3::new(0.1, 1.0, 0.0), projection })
+        Some(Camera { position, look_at, up: DVec3::new(0.1, 1.0, 0.0), projection, lens: None })
     }
 
     fn settings(&mut self) -> RenderSettings {
@@ -186,6 +199,7 @@ impl Maker<'_, '_> {
             antialias,
             filter,
             trees: self.dice.one_of(&[Trees::Preview, Trees::Picture, Trees::ManyRays]),
+            ..RenderSettings::default()
         }
     }
 
@@ -211,7 +225,7 @@ impl Maker<'_, '_> {
     fn light(&mut self) -> Light {
         let falloff = self.dice.one_of(&[Falloff::None, Falloff::InverseSquare]);
         let kind = match self.dice.below(3) {
-            0 => LightKind::Point { position: self.lamp(), falloff },
+            0 => LightKind::Point { position: self.lamp(), falloff, radius: 0.0 },
             1 => {
                 let edge =
                     if self.is_odd() { self.dice.one_of(&[1e-5, 90.0, 180.0]) } else { self.dice.within(20.0, 80.0) };
@@ -222,11 +236,12 @@ impl Maker<'_, '_> {
                     half_angle_degrees: edge,
                     inner_half_angle_degrees: inner,
                     falloff,
+                    radius: 0.0,
                 }
             }
             _ => LightKind::Directional { direction: self.direction() },
         };
-        Light { name: None, color: self.light_color(), intensity: self.strength(), kind }
+        Light { name: None, color: self.light_color(), strength: Strength::Classic(self.strength()), kind }
     }
 
     /// Where a light is: mostly above.

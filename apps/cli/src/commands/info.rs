@@ -9,7 +9,7 @@ use crate::numbers::{bytes, count, thousands, vector};
 use crate::output;
 use crate::progress::Show;
 use clap::Args;
-use durer::imaging::{FileFormat, Transfer};
+use durer::imaging::{FileFormat, ToneMapping, Transfer};
 use durer::math::DVec3;
 use durer::scene::{Antialias, LightKind, Object, ObjectKind, Picture, PixelFilter};
 use durer::{Bounds, CompiledScene, GeometryMemory, Scene};
@@ -170,7 +170,7 @@ impl<'s> Facts<'s> {
     }
 
     fn json(&self) -> Value {
-        let Picture { width, height, transfer } = self.scene.picture;
+        let Picture { width, height, transfer, exposure, tone_mapping } = self.scene.picture;
         let images: Vec<Value> = self
             .scene
             .images
@@ -178,7 +178,7 @@ impl<'s> Facts<'s> {
             .map(|image| json!({ "file": image.file, "width": image.bitmap.width, "height": image.bitmap.height }))
             .collect();
         json!({
-            "picture": { "width": width, "height": height, "transfer": transfer_word(transfer) },
+            "picture": { "width": width, "height": height, "transfer": transfer_word(transfer), "exposure": exposure, "tone_mapping": tone_mapping_word(tone_mapping) },
             "max_depth": self.scene.render.max_depth,
             "antialias": antialias_text(self.scene.render.antialias),
             "filter": filter_text(self.scene.render.filter),
@@ -258,7 +258,7 @@ fn bounds_text(bounds: Option<Bounds>) -> String {
 }
 
 fn picture_text(scene: &Scene) -> String {
-    let Picture { width, height, transfer } = scene.picture;
+    let Picture { width, height, transfer, .. } = scene.picture;
     let (transfer, antialias) = (transfer_word(transfer), antialias_text(scene.render.antialias));
     format!("{width} × {height} pixels, {transfer}, depth {}, antialias {antialias}", scene.render.max_depth)
 }
@@ -268,6 +268,17 @@ pub(crate) fn transfer_word(transfer: Transfer) -> &'static str {
     match transfer {
         Transfer::Srgb => "srgb",
         Transfer::Linear => "linear",
+    }
+}
+
+/// The tone mapping, as scenes call it.
+pub(crate) fn tone_mapping_word(tone_mapping: ToneMapping) -> &'static str {
+    match tone_mapping {
+        ToneMapping::None => "none",
+        ToneMapping::Reinhard => "reinhard",
+        ToneMapping::Aces => "aces",
+        ToneMapping::Agx => "agx",
+        ToneMapping::PbrNeutral => "pbr_neutral",
     }
 }
 

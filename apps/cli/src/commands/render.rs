@@ -1,6 +1,7 @@
 //! `durer render`: from a scene file to a picture file.
 
 mod job;
+mod layers;
 mod manner;
 mod report;
 mod saver;
@@ -11,7 +12,8 @@ use crate::load::SceneArgs;
 use crate::overrides::Overrides;
 use crate::target::FileOptions;
 use clap::Args;
-use durer::{Origin, Region, SimdLevel};
+use durer::{Film, Origin, Region, SampleRange, SimdLevel};
+use layers::LayerOptions;
 use saving::Saving;
 use std::path::{Path, PathBuf};
 
@@ -22,12 +24,14 @@ const EXAMPLES: &str = "\
 Examples:
   durer render room.yaml                                  writes room.png
   durer render room.yaml -o room.exr --bit-depth float
+  durer render room.yaml -o film.exr --layers all         see `durer develop --help`
   durer render bunny.ply                                  a model
   durer render room.yaml --width 1920 --antialias grid:4
   durer render room.yaml --crop 100,80,64,64 -o detail.png
   durer render room.yaml --antialias recursive:0.1,3 --stats json > room.json
 
-The format follows the extension: png, jpg, exr, hdr or pfm. The picture is the same
+The format follows the extension: png, jpg, exr, hdr or pfm; film keeps exact sums of
+samples, for `durer merge`. The picture is the same
 whatever the number of threads. Ctrl-C stops after the tiles being worked on and saves
 what is finished beside the picture, as room.partial.png for room.png, which stays as it
 was; the second Ctrl-C quits at once. A render that takes over a minute keeps what is
@@ -41,13 +45,17 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     scene: SceneArgs,
 
-    /// The picture file [default: the scene's name with .png, in this folder]
+    /// The picture file, or a film file to be merged with others [default: the scene's name with .png, in this folder]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
     /// Render only this part: left, top, width and height in pixels
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
     crop: Option<Region>,
+
+    /// Take only these samples of each pixel, the last excluded: part of what several runs make together
+    #[arg(long, value_name = "FROM..TO", value_parser = sample_range, allow_hyphen_values = true)]
+    sample_range: Option<SampleRange>,
 
     #[command(flatten)]
     manner: Manner,
@@ -65,6 +73,9 @@ pub(crate) struct Arguments {
 
     #[command(flatten)]
     file: FileOptions,
+
+    #[command(flatten)]
+    layers: LayerOptions,
 }
 
 /// Renders the scene.
@@ -85,6 +96,22 @@ impl Arguments {
             Some(path) => path.clone(),
             None => PathBuf::from(self.scene.name()).with_extension("png"),
         }
+    }
+
+    /// Makes it one that writes what a film says, which is of this part and has all of its samples, to another file.
+    pub(crate) fn developed(&mut self, film: &Film, folder: &Path, output: PathBuf) {
+        if std::env::current_dir().is_ok_and(|here| here != folder) {
+            self.scene.move_to(folder);
+        }
+        self.output = Some(output);
+        self.crop = Some(film.region());
+        self.saving.checkpoint = None;
+        self.saving.no_checkpoint = true;
+    }
+
+    /// True if it writes a film file.
+    pub(crate) fn writes_film(&self) -> bool {
+        crate::target::is_film(&self.output_path())
     }
 
     /// Makes it a render in another folder, whose checkpoints go where they have been so far.
@@ -109,5 +136,14 @@ fn crop(text: &str) -> Result<Region, String> {
         Ok(&[_, _, 0, _] | &[_, _, _, 0]) => Err("width and height of the region must be at least 1".to_owned()),
         Ok(&[x, y, width, height]) => Ok(Region { x, y, width, height }),
         Ok(_) | Err(_) => Err("expected four whole numbers, X,Y,W,H, for example 100,80,64,64".to_owned()),
+    }
+}
+
+fn sample_range(text: &str) -> Result<SampleRange, String> {
+    let numbers = text.split_once("..").and_then(|(start, end)| Some((start.parse().ok()?, end.parse().ok()?)));
+    match numbers {
+        Some((start, end)) if start < end => Ok(SampleRange { start, end }),
+        Some(_) => Err("the second number must be greater than the first".to_owned()),
+        None => Err("expected two whole numbers, FROM..TO, for example 0..64".to_owned()),
     }
 }

@@ -1,10 +1,10 @@
 //! `durer resume`: goes on with a render that was cut short.
 
-use super::render::{Job, Manner};
+use super::render::{self, Job, Manner};
 use crate::args::{Cli, Command};
 use crate::exit::{Exit, Failure};
 use clap::{Args, Parser};
-use durer::read_checkpoint;
+use durer::{Origin, read_checkpoint};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -34,13 +34,21 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let cannot = |why: String| Failure::file(format!("cannot go on with {}: {why}", path.display()));
     let checkpoint = read_checkpoint(path).map_err(|error| cannot(error.to_string()))?;
     let origin = checkpoint.origin.clone();
-    let words = ["durer", "render"].into_iter().chain(origin.words.iter().map(String::as_str));
-    let mut render = match Cli::try_parse_from(words) {
-        Ok(Cli { command: Command::Render(render) }) => render,
-        Ok(_) => return Err(cannot("it does not say how it was begun".to_owned())),
-        // Among them an instruction set that this machine lacks.
-        Err(error) => return Err(cannot(format!("what it was begun with does not work here: {}", error.render()))),
-    };
+    let mut render = begun_with(&origin).map_err(cannot)?;
+    if checkpoint.film.is_complete() && render.writes_film() {
+        return Err(cannot("it is a finished film, of which `durer merge` makes a picture".to_owned()));
+    }
     render.resumed_in(Path::new(&origin.folder), path);
     Job { arguments: &render, manner: &arguments.manner, origin: Some(origin) }.run(Some(checkpoint))
+}
+
+/// What a render was begun with.
+pub(super) fn begun_with(origin: &Origin) -> Result<render::Arguments, String> {
+    let words = ["durer", "render"].into_iter().chain(origin.words.iter().map(String::as_str));
+    match Cli::try_parse_from(words) {
+        Ok(Cli { command: Command::Render(render) }) => Ok(render),
+        Ok(_) => Err("it does not say how it was begun".to_owned()),
+        // Among them an instruction set that this machine lacks.
+        Err(error) => Err(format!("what it was begun with does not work here: {}", error.render())),
+    }
 }

@@ -2,7 +2,9 @@
 
 mod checkpoint;
 mod compare;
+mod develop;
 mod explain;
+mod films;
 mod heatmap;
 mod hostile;
 mod inspect;

@@ -135,6 +135,11 @@ fn the_command_line_wins_over_the_file() {
     assert!(different("--antialias grid:2"));
     assert!(different("--max-depth 1"));
     assert!(different("--transfer linear"));
+    assert!(different("--exposure 1"));
+    assert!(different("--tone-mapping aces"));
+    assert!(different("--integrator normals"));
+    assert!(!different("--integrator whitted --samples 3 --noise 0.5 --time 100 --seed 4"));
+    assert!(different("--integrator path:2 --samples 1"));
 }
 
 #[test]
@@ -148,6 +153,13 @@ fn settings_beyond_the_limits_name_their_option() {
     workshop.fails("render room.yaml --antialias recursive:nan", 2, "--antialias");
     workshop.fails("render room.yaml --antialias often", 2, "recursive[:THRESHOLD");
     workshop.fails("render room.yaml --max-depth 0", 2, "0 is not in 1..=100");
+    workshop.fails("render room.yaml --integrator magic", 2, "expected `whitted`, `path");
+    workshop.fails("render room.yaml --integrator path:0", 2, "--integrator: max_depth must be from 1");
+    workshop.fails("render room.yaml --samples 0", 2, "0 is not in 1..=1000000");
+    workshop.fails("render room.yaml --noise 7", 2, "--noise: noise must be from 0.0001 to 1");
+    workshop.fails("render room.yaml --time -1", 2, "--time: time must be from 0.001");
+    workshop.fails("render room.yaml --exposure dark", 2, "expected a number from -100 to 100");
+    workshop.fails("render room.yaml --tone-mapping film", 2, "--tone-mapping");
     workshop.fails("render room.yaml --crop 20,0,5,5", 2, "--crop");
     workshop.fails("render room.yaml --crop 1,2,3", 2, "--crop");
     workshop.fails("render room.yaml --crop -1,0,2,2", 2, "expected four whole numbers");
@@ -196,4 +208,52 @@ fn statistics_are_json_in_place_of_the_line() {
         ["eye", "reflected", "transmitted", "shadow"].iter().map(|k| stats["rays"][k].as_u64().unwrap()).sum();
     assert_eq!(stats["rays"]["total"], total);
     assert!(["load", "build", "render", "write"].iter().all(|step| stats["seconds"][step].as_f64().unwrap() >= 0.0));
+}
+
+#[test]
+fn films_have_the_layers_that_are_asked_for() {
+    let workshop = Workshop::new();
+    workshop.fine("render room.yaml -o film.exr --layers all");
+    let list = workshop.fine("develop film.exr --list").stdout;
+    let names: Vec<&str> = list.lines().filter_map(|line| line.split(' ').next()).collect();
+    let expected = ["beauty", "albedo", "depth", "material_id", "normal", "object_id", "position", "uv"];
+    assert_eq!(names, expected, "{list}");
+    assert!(list.contains("depth        24 × 16  Z float\n"), "{list}");
+    for name in expected {
+        workshop.fine(&format!("develop film.exr --layer {name} -o {name}.png"));
+        let shown = workshop.picture(&format!("{name}.png"));
+        assert!(shown.pixels.iter().any(|pixel| *pixel != shown.pixels[0]), "{name} is one color");
+    }
+    workshop.fine("render room.yaml -o some.exr --layers depth,beauty --crop 3,4,10,8 --bit-depth float");
+    let list = workshop.fine("develop some.exr --list").stdout;
+    assert_eq!(list, "beauty  10 × 8  R float, G float, B float\ndepth   10 × 8  Z float\n");
+    workshop.fine("render room.yaml -o plain.exr");
+    workshop.fine("render room.yaml -o beauty.exr --layers beauty");
+    assert_eq!(workshop.bytes("plain.exr"), workshop.bytes("beauty.exr"));
+    workshop.fails("render room.yaml -o a.png --layers all", 2, "only EXR has layers");
+    workshop.fails("render room.yaml -o a.exr --layers direct", 2, "pictures by `whitted` have no layer `direct`");
+    let settings = "antialias: none, integrator: path, samples: 4";
+    workshop.put("paths.yaml", &crate::workshop::ROOM.replace("antialias: none", settings));
+    workshop.fine("render paths.yaml -o paths.exr --layers samples,direct");
+    let list = workshop.fine("develop paths.exr --list").stdout;
+    assert_eq!(list, "direct   24 × 16  R half, G half, B half\nsamples  24 × 16  N integer\n");
+    workshop.fails("render room.yaml -o a.exr --layers all,deep", 2, "no layer `all`; there are beauty, albedo");
+}
+
+/// What is rendered at once is what is developed later.
+#[test]
+fn films_are_developed_as_pictures_are_rendered() {
+    let workshop = Workshop::new();
+    let settings = "width: 24, height: 16, exposure: 1.5, tone_mapping: agx";
+    let room = crate::workshop::ROOM.replace("width: 24, height: 16", settings);
+    workshop.put("room.yaml", &room);
+    workshop.fine("render room.yaml -o at-once.png");
+    workshop.fine("render room.yaml -o film.exr --bit-depth float --layers all");
+    workshop.fine("develop film.exr -o later.png");
+    assert_eq!(workshop.picture("at-once.png"), workshop.picture("later.png"));
+    workshop.fine("develop film.exr -o plain.png --exposure 0 --tone-mapping none");
+    workshop.put("room.yaml", crate::workshop::ROOM);
+    workshop.fine("render room.yaml -o plain-at-once.png");
+    assert_eq!(workshop.picture("plain-at-once.png"), workshop.picture("plain.png"));
+    assert_ne!(workshop.picture("plain.png"), workshop.picture("later.png"));
 }

@@ -3,14 +3,14 @@
 use super::{Checkpoint, CheckpointError, Origin};
 use crate::SceneHash;
 use durer_math::{DVec2, Rgb};
-use durer_render::{BadSample, Film, FilmParts, RayCounts, Region};
+use durer_render::{BadSample, Film, FilmParts, Part, RayCounts, Region, SampleRange, Sums};
 use twox_hash::XxHash3_128;
 
 /// How files begin. The last three bytes are changed by programs that take the file for a text.
 const MAGIC: &[u8; 8] = b"durer\x1a\r\n";
 
 /// Of the format.
-pub(super) const VERSION: u32 = 1;
+pub(super) const VERSION: u32 = 2;
 
 /// Bytes of a hash.
 const HASH: usize = 16;
@@ -19,7 +19,7 @@ const MADE_BY: &str = env!("CARGO_PKG_VERSION");
 
 /// The bytes of a checkpoint.
 pub fn encode_checkpoint(origin: &Origin, scene: &SceneHash, film: &Film) -> Vec<u8> {
-    let mut out = Vec::with_capacity(13 * film.pixels().len() + film.finished_tiles().len() + 4096);
+    let mut out = Vec::with_capacity(most_bytes(film));
     out.extend_from_slice(MAGIC);
     out.extend_from_slice(&VERSION.to_le_bytes());
     text(&mut out, MADE_BY);
@@ -42,10 +42,19 @@ fn text(out: &mut Vec<u8>, text: &str) {
     out.extend_from_slice(text.as_bytes());
 }
 
-fn put_film(out: &mut Vec<u8>, film: &Film) {
-    let Region { x, y, width, height } = film.region();
-    let RayCounts { eye, reflected, transmitted, shadow, cut_off } = film.rays();
+/// Of a film, and of all else that is not unusually long.
+fn most_bytes(film: &Film) -> usize {
+    let pixel = film.sums().map_or(13, |sums| if sums.direct.is_empty() { SUMS } else { SUMS + 48 });
+    pixel * film.pixels().len() + film.finished_tiles().len() + 4096
+}
+
+fn put_region(out: &mut Vec<u8>, Region { x, y, width, height }: Region) {
     [x, y, width, height].iter().for_each(|number| out.extend_from_slice(&number.to_le_bytes()));
+}
+
+fn put_film(out: &mut Vec<u8>, film: &Film) {
+    let RayCounts { eye, reflected, transmitted, shadow, cut_off } = film.rays();
+    put_region(out, film.region());
     for number in [eye, reflected, transmitted, shadow, cut_off, film.bad_samples()] {
         out.extend_from_slice(&number.to_le_bytes());
     }
@@ -53,11 +62,34 @@ fn put_film(out: &mut Vec<u8>, film: &Film) {
     let at = first.map_or(DVec2::ZERO, |BadSample { at }| at);
     out.push(u8::from(first.is_some()));
     at.to_array().iter().for_each(|number| out.extend_from_slice(&number.to_le_bytes()));
+    out.push(u8::from(film.sums().is_some()));
+    if let Some(sums) = film.sums() {
+        out.push(u8::from(film.is_complete()));
+        out.push(u8::from(!sums.direct.is_empty()));
+        put_sums(out, sums);
+        return;
+    }
     out.extend(film.finished_tiles().iter().map(|&finished| u8::from(finished)));
     for component in film.pixels().iter().flat_map(|pixel| pixel.to_array()) {
         out.extend_from_slice(&component.to_le_bytes());
     }
     out.extend_from_slice(film.depths());
+}
+
+/// Bytes of the sums of a pixel.
+const SUMS: usize = 4 + 2 * 4 + 3 * 16 + 16;
+
+fn put_sums(out: &mut Vec<u8>, sums: &Sums) {
+    out.extend_from_slice(&(sums.parts.len() as u32).to_le_bytes());
+    for Part { region, samples } in &sums.parts {
+        put_region(out, *region);
+        out.extend_from_slice(&samples.start.to_le_bytes());
+        out.extend_from_slice(&samples.end.to_le_bytes());
+    }
+    let counts = sums.taken.iter().chain(sums.counts.as_flattened());
+    counts.for_each(|count| out.extend_from_slice(&count.to_le_bytes()));
+    let amounts = [&sums.colors[..], &sums.direct].into_iter().flatten().flatten().chain(&sums.squares);
+    amounts.for_each(|amount| out.extend_from_slice(&amount.to_le_bytes()));
 }
 
 impl Checkpoint {
@@ -140,7 +172,7 @@ impl<'a> Input<'a> {
     }
 
     fn film(&mut self) -> Option<Film> {
-        let region = Region { x: self.u32()?, y: self.u32()?, width: self.u32()?, height: self.u32()? };
+        let region = self.region()?;
         let [eye, reflected, transmitted] = [self.u64()?, self.u64()?, self.u64()?];
         let rays = RayCounts { eye, reflected, transmitted, shadow: self.u64()?, cut_off: self.u64()? };
         let bad_samples = self.u64()?;
@@ -151,11 +183,45 @@ impl<'a> Input<'a> {
             return None;
         }
         let first_bad_sample = is_there.then_some(BadSample { at });
+        let parts = FilmParts { region, rays, bad_samples, first_bad_sample, ..FilmParts::default() };
+        Film::from_parts(if self.flag()? { self.with_sums(parts)? } else { self.with_pixels(parts)? })
+    }
+
+    fn region(&mut self) -> Option<Region> {
+        Some(Region { x: self.u32()?, y: self.u32()?, width: self.u32()?, height: self.u32()? })
+    }
+
+    fn with_pixels(&mut self, parts: FilmParts) -> Option<FilmParts> {
+        let region = parts.region;
         let finished = self.bytes(region.tile_count())?.iter().map(|&byte| truth(byte)).collect::<Option<_>>()?;
         let colors = self.bytes(region.pixels().checked_mul(12)?)?;
         let pixels = colors.chunks_exact(12).map(color).collect();
         let depths = self.bytes(region.pixels())?.to_vec();
-        Film::from_parts(FilmParts { region, pixels, depths, finished, rays, bad_samples, first_bad_sample })
+        Some(FilmParts { pixels, depths, finished, ..parts })
+    }
+
+    fn with_sums(&mut self, parts: FilmParts) -> Option<FilmParts> {
+        let (region, is_finished, has_direct) = (parts.region, self.flag()?, self.flag()?);
+        let of = self.list(|input| {
+            let region = input.region()?;
+            Some(Part { region, samples: SampleRange { start: input.u32()?, end: input.u32()? } })
+        })?;
+        let pixels = region.pixels();
+        let numbers =
+            |bytes: &[u8]| bytes.as_chunks().0.iter().map(|&bytes| u32::from_le_bytes(bytes)).collect::<Vec<_>>();
+        let amounts =
+            |bytes: &[u8]| bytes.as_chunks().0.iter().map(|&bytes| i128::from_le_bytes(bytes)).collect::<Vec<_>>();
+        let sums = Sums {
+            parts: of,
+            taken: numbers(self.bytes(pixels.checked_mul(4)?)?),
+            counts: numbers(self.bytes(pixels.checked_mul(8)?)?).as_chunks().0.to_vec(),
+            colors: amounts(self.bytes(pixels.checked_mul(48)?)?).as_chunks().0.to_vec(),
+            direct: amounts(self.bytes(if has_direct { pixels.checked_mul(48)? } else { 0 })?).as_chunks().0.to_vec(),
+            squares: amounts(self.bytes(pixels.checked_mul(16)?)?),
+        };
+        // All sums of so many pixels are there, so that there are not too many tiles either.
+        let finished = vec![is_finished; usize::try_from(region.tile_count()).ok()?];
+        Some(FilmParts { finished, sums: Some(sums), ..parts })
     }
 }
 

@@ -33,7 +33,7 @@ fn scene(render: &str) -> CheckedScene {
     load_str(&text, "test", &NoAssets, &Limits::default()).unwrap().scene
 }
 
-const ONE_THREAD: RenderOptions = RenderOptions { threads: Some(1), region: None };
+const ONE_THREAD: RenderOptions = RenderOptions { threads: Some(1), region: None, samples: None, direct: false };
 
 fn stopped_after(scene: &CompiledScene, region: Option<Region>, calls: usize) -> Film {
     let options = RenderOptions { region, ..ONE_THREAD };
@@ -60,6 +60,9 @@ fn going_on_from_a_file_gives_the_picture_of_one_go() {
         "antialias: pov1",
         "antialias: pov2, filter: gaussian",
         "antialias: {grid: 2}, filter: {blackman_harris: {radius: 3}}",
+        "integrator: path, samples: 6",
+        "integrator: path, samples: 20, noise: 0.1, filter: mitchell",
+        "integrator: ambient_occlusion, samples: 3",
     ];
     let mut cut_short = 0;
     for way in ways {
@@ -75,6 +78,7 @@ fn going_on_from_a_file_gives_the_picture_of_one_go() {
             let resumed = crate::render_on(&compiled, through_bytes(&scene, &part), &ONE_THREAD, &()).unwrap();
             assert!(resumed.is_complete());
             assert_eq!((bits(&resumed), resumed.depths()), (bits(&whole), whole.depths()), "{way}, {calls}");
+            assert_eq!(resumed.sums(), whole.sums(), "{way}, {calls}");
         }
     }
     assert!(cut_short > ways.len() * 3, "{cut_short}");
@@ -82,10 +86,14 @@ fn going_on_from_a_file_gives_the_picture_of_one_go() {
 
 #[test]
 fn every_flipped_bit_and_every_cut_is_found() {
-    let scene = scene("antialias: none");
-    let film = stopped_after(&crate::compile(&scene), Some(Region { x: 0, y: 0, width: 3, height: 2 }), 1);
+    every_flipped_bit_of(&scene("antialias: none"));
+    every_flipped_bit_of(&scene("integrator: path, samples: 2"));
+}
+
+fn every_flipped_bit_of(scene: &CheckedScene) {
+    let film = stopped_after(&crate::compile(scene), Some(Region { x: 0, y: 0, width: 3, height: 2 }), 1);
     let origin = Origin { folder: "a".to_owned(), words: vec!["b".to_owned()] };
-    let bytes = encode_checkpoint(&origin, &hash(&scene), &film);
+    let bytes = encode_checkpoint(&origin, &hash(scene), &film);
     assert!(Checkpoint::decode(&bytes).is_ok());
     for at in 0..bytes.len() {
         for bit in 0..8 {
@@ -107,10 +115,15 @@ fn every_flipped_bit_and_every_cut_is_found() {
 /// A right checksum does not make it a checkpoint; and what it promises is not allocated.
 #[test]
 fn wrong_contents_under_a_right_checksum_are_refused() {
-    let scene = scene("antialias: none");
-    let film = stopped_after(&crate::compile(&scene), Some(Region { x: 0, y: 0, width: 3, height: 2 }), 1);
+    wrong_contents_of(&scene("antialias: none"));
+    wrong_contents_of(&scene("integrator: path, samples: 2"));
+}
+
+fn wrong_contents_of(scene: &CheckedScene) {
+    let compiled = crate::compile(scene);
+    let film = stopped_after(&compiled, Some(Region { x: 0, y: 0, width: 3, height: 2 }), 1);
     let origin = Origin { folder: "folder".to_owned(), words: vec!["word".to_owned()] };
-    let bytes = encode_checkpoint(&origin, &hash(&scene), &film);
+    let bytes = encode_checkpoint(&origin, &hash(scene), &film);
     let sealed = |content: &[u8]| {
         let checksum = twox_hash::XxHash3_128::oneshot(content);
         [content, &checksum.to_le_bytes()].concat()
@@ -121,7 +134,11 @@ fn wrong_contents_under_a_right_checksum_are_refused() {
         let mut spoilt = content.to_vec();
         spoilt[at] = 0xff;
         // Whatever comes of it: no panic, and no more memory than the bytes are worth.
-        let _ = Checkpoint::decode(&sealed(&spoilt));
+        if let Ok(read) = Checkpoint::decode(&sealed(&spoilt)) {
+            assert_eq!(encode_checkpoint(&read.origin, &read.scene, &read.film), sealed(&spoilt), "{at}");
+            // Whatever was read can be gone on with, if it is of the picture at all.
+            let _ = crate::render_on(&compiled, read.film, &ONE_THREAD, &());
+        }
         assert!(Checkpoint::decode(&sealed(&content[..at])).is_err(), "cut at {at}");
     }
     assert!(Checkpoint::decode(&sealed(&[content, &[0]].concat())).is_err());

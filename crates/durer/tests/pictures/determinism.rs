@@ -37,10 +37,10 @@ fn rendered(scene: &CompiledScene, options: &RenderOptions) -> Film {
 fn any_number_of_threads_gives_the_same_film() {
     for mode in MODES {
         let scene = small_room(mode, 75, 70);
-        let one = rendered(&scene, &RenderOptions { threads: Some(1), region: None });
+        let one = rendered(&scene, &RenderOptions { threads: Some(1), ..RenderOptions::default() });
         assert_eq!(one.finished_pixels(), 75 * 70);
         for threads in [2, 3, 8] {
-            let many = rendered(&scene, &RenderOptions { threads: Some(threads), region: None });
+            let many = rendered(&scene, &RenderOptions { threads: Some(threads), ..Default::default() });
             assert!(one == many, "{threads} threads, {mode:?}");
         }
     }
@@ -60,7 +60,7 @@ fn a_region_is_the_same_part_of_the_whole() {
         for region in [(0, 0, 75, 70), (13, 7, 40, 35), (74, 69, 1, 1), (5, 0, 1, 70), (0, 33, 75, 2)] {
             let (x, y, width, height) = region;
             let region = Region { x, y, width, height };
-            let film = rendered(&scene, &RenderOptions { threads: None, region: Some(region) });
+            let film = rendered(&scene, &RenderOptions { region: Some(region), ..Default::default() });
             assert_eq!(film.region(), region);
             let part = film.develop();
             for row in 0..height {
@@ -100,7 +100,7 @@ fn a_region_must_lie_within_the_picture() {
     let scene = small_room(MODES[0], 20, 10);
     for (x, y, width, height) in [(0, 0, 21, 1), (20, 0, 1, 1), (0, 0, 0, 5), (u32::MAX, 0, 2, 2), (0, 9, 1, 2)] {
         let region = Some(Region { x, y, width, height });
-        assert!(durer::render(&scene, &RenderOptions { threads: None, region }, &()).is_err());
+        assert!(durer::render(&scene, &RenderOptions { region, ..Default::default() }, &()).is_err());
     }
 }
 

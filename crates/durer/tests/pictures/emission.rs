@@ -1,4 +1,4 @@
-//! Surfaces that give off light by themselves: it is added once for each surface seen, and lights nothing else.
+//! Surfaces that give off light by themselves: it is added once for each surface seen, and lights others.
 
 use crate::support::{assert_color, look};
 use durer::Source;
@@ -41,21 +41,30 @@ fn every_surface_on_the_way_adds_its_own() {
 background: 0
 lights: []
 objects:
-  - sphere: {material: {ambient: 0, transparency: 0.5, emission: 1}}
-  - plane: {point: [0, 0, -3], normal: [0, 0, 1], material: {ambient: 0, reflection: 0.5}}
+  - sphere: {material: {ambient: 0, diffuse: 0, transparency: 0.5, emission: 1}}
+  - plane: {point: [0, 0, -3], normal: [0, 0, 1], material: {ambient: 0, diffuse: 0, reflection: 0.5}}
 ";
     // The ball, twice; in the mirror behind it, twice again.
     let ball = 1.0 + 0.5;
     assert_color(look(text, [0.0, 0.0, 5.0], [0.0, 0.0, 0.0]).color, [ball + 0.25 * 0.5 * ball; 3]);
 }
 
+/// A disc of radius r at height h fills r²/(r² + h²) of what the floor below sees; the lamp is behind it.
 #[test]
-fn what_glows_lights_nothing_else_and_throws_shadows() {
-    let text = "
-lights: [point: {position: [0, 10, 0]}]
+fn what_glows_lights_others_and_throws_shadows() {
+    let text = |samples: u32| {
+        format!(
+            "
+render: {{light_samples: {samples}}}
+lights: [point: {{position: [0, 10, 0]}}]
 objects:
-  - plane: {}
-  - disc: {center: [0, 5, 0], material: {emission: 100}}
-";
-    assert_color(look(text, [0.1, 0.3, 0.0], [0.1, 0.0, 0.0]).color, [0.8 * 0.2; 3]);
+  - plane: {{}}
+  - disc: {{center: [0, 5, 0], material: {{emission: 100}}}}
+"
+        )
+    };
+    let seen = |samples: u32| look(&text(samples), [0.1, 0.3, 0.0], [0.1, 0.0, 0.0]).color;
+    assert_color(seen(0), [0.8 * 0.2; 3]);
+    let (found, expected) = (f64::from(seen(64).r), 0.8 * 0.2 + 0.8 * 0.8 * 100.0 / 26.0);
+    assert!((found / expected - 1.0).abs() < 0.01, "{found}, not {expected}");
 }

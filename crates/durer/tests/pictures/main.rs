@@ -27,6 +27,7 @@ mod room;
 mod seed_tracer;
 mod shading;
 mod shadows;
+mod shown;
 mod silhouettes;
 mod solids;
 mod support;

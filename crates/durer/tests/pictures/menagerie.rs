@@ -89,7 +89,8 @@ fn small(antialias: Antialias) -> CompiledScene {
 }
 
 fn rendered(scene: &CompiledScene, threads: usize, region: Option<Region>) -> Film {
-    durer::render(scene, &RenderOptions { threads: Some(threads), region }, &()).expect("a picture")
+    durer::render(scene, &RenderOptions { threads: Some(threads), region, ..Default::default() }, &())
+        .expect("a picture")
 }
 
 #[test]
@@ -134,7 +135,8 @@ fn threads_and_regions_change_nothing() {
 fn a_map_of_what_it_takes_is_the_same_for_all_threads_and_regions() {
     let scene = small(Antialias::Grid { n: 2 });
     let map = |threads, region| {
-        durer::heatmap(&scene, &RenderOptions { threads: Some(threads), region }, &()).expect("a map")
+        durer::heatmap(&scene, &RenderOptions { threads: Some(threads), region, ..Default::default() }, &())
+            .expect("a map")
     };
     let whole = map(1, None);
     assert!(map(3, None) == whole);

@@ -30,13 +30,13 @@ objects:
 /// All of a scene moved: things, lights and eye. The map keeps angles; `scale` is how it changes lengths.
 fn moved(mut scene: Scene, map: &DAffine3, scale: f64) -> Scene {
     let (point, direction) = (|p| map.transform_point3(p), |d| map.matrix3 * d);
-    let Camera { position, look_at, up, projection } = scene.camera.expect("a camera");
+    let Camera { position, look_at, up, projection, lens } = scene.camera.expect("a camera");
     let projection = match projection {
         Projection::Orthographic { height } => Projection::Orthographic { height: height * scale },
         angle => angle,
     };
     let up = direction(up).normalize();
-    scene.camera = Some(Camera { position: point(position), look_at: point(look_at), up, projection });
+    scene.camera = Some(Camera { position: point(position), look_at: point(look_at), up, projection, lens });
     for light in &mut scene.lights {
         match &mut light.kind {
             LightKind::Point { position, .. } => *position = point(*position),

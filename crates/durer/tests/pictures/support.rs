@@ -99,6 +99,7 @@ impl Front {
             look_at: DVec3::ZERO,
             up: DVec3::Y,
             projection: Projection::Orthographic { height },
+            lens: None,
         });
         (scene.picture.width, scene.picture.height) = (size, size);
         scene.render.antialias = Antialias::None;

@@ -62,8 +62,7 @@ impl Shift {
     }
 
     fn material(&self, material: &mut Material) {
-        self.paint(&mut material.color);
-        self.paint(&mut material.opacity);
+        material.paints_mut().into_iter().for_each(|paint| self.paint(paint));
     }
 
     /// Objects, but for the meshes in them.
@@ -201,11 +200,9 @@ mod tests {
             ..Scene::default()
         };
         let before = scene.clone();
-        let material = Material {
-            color: Paint::Texture(TextureId(0)),
-            opacity: Paint::Texture(TextureId(1)),
-            ..Material::default()
-        };
+        let color = Paint::Texture(TextureId(0));
+        let kind = MaterialKind::Classic(Classic { color, ..Classic::default() });
+        let material = Material { opacity: Paint::Texture(TextureId(1)), ..Material::of(kind) };
         let model = Scene {
             images: vec![image("b"), image("c")],
             textures: every_pattern(1),
@@ -219,8 +216,8 @@ mod tests {
         assert!(textures.eq([Paint::Texture(TextureId(8)); 7]));
         assert!(matches!(&scene.textures[8].pattern, Pattern::Image(texture) if texture.image == ImageId(2)));
         let adopted = &scene.materials[3];
-        assert_eq!(adopted.color, Paint::Texture(TextureId(8)));
-        assert_eq!(adopted.opacity, Paint::Texture(TextureId(9)));
+        let black = Paint::Color(Rgb::BLACK);
+        assert_eq!(adopted.paints(), [Paint::Texture(TextureId(8)), black, Paint::Texture(TextureId(9))]);
     }
 
     #[test]

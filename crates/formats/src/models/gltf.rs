@@ -17,25 +17,19 @@
 //!
 //! # Materials
 //!
-//! glTF describes surfaces by base color, metal m and roughness r; what classic materials can say of it is this. With
-//! F = ((ior - 1)/(ior + 1))² (0.04 unless the file says otherwise), tinted by KHR_materials_specular:
+//! glTF describes surfaces as the scene's `principled` materials do, which have its names, its meanings and its defaults:
+//! base color, metal and roughness, normal textures, emission, and KHR_materials_anisotropy, clearcoat, emissive_strength,
+//! ior, sheen, specular, transmission and volume, each number with its texture, of which the channel is read that the
+//! format says. What becomes of them without path tracing is said where Whitted's algorithm reads principled materials.
 //!
-//! | classic | from glTF |
-//! |---|---|
-//! | `color` | base color, times its texture |
-//! | `diffuse` | 1 - m (1 - r)²: what a rough metal scatters is taken for matte |
-//! | `ambient` | the usual 0.2, times `diffuse` |
-//! | `shininess` s | (1/α² - 1)/2 with α = r², from 1 to 10000 |
-//! | `specular` | F (s + 2)/2, at most 1, of what is not metal; base color times 1 - r of what is |
-//! | `reflection` | (1 - r)² of F, or of base color for metal; none below 0.01 |
-//! | `transparency` | base color times the transmission; 1 - alpha with `BLEND` |
-//! | `ior`, `fresnel`, `attenuation` | from KHR_materials_ior and KHR_materials_volume if there is a thickness |
-//! | `opacity` | the alpha of the texture; with `MASK`, where it reaches the cutoff |
-//! | `emission` | emissive factor times strength, and times the mean of a texture |
-//!
-//! KHR_materials_unlit becomes `ambient` 1 without anything else: the color itself, under the usual white ambient light.
-//! KHR_materials_pbrSpecularGlossiness is read as r = 1 - glossiness, F = specular and m = 0. Of metallic-roughness
-//! textures the mean is used; normal, occlusion and the other textures are not.
+//! * Without a thickness, what light goes through is a sheet (`thin`).
+//! * `opacity` is the alpha of factor and texture with `BLEND`; with `MASK`, where that reaches the cutoff.
+//! * KHR_materials_pbrSpecularGlossiness has roughness 1 - glossiness, and says what is mirrored straight back, which as
+//!   `specular_color` is a multiple of 0.04; its texture is not used.
+//! * KHR_materials_unlit becomes a classic material of `ambient` 1 without anything else: the color itself, under the usual
+//!   white ambient light.
+//! * Occlusion and thickness textures, and normals of coats, are not used; nor the directions in anisotropy textures.
+//! * All textures of a material are laid on by the texture coordinates of the first.
 
 mod accessor;
 mod account;

@@ -14,8 +14,8 @@ use crate::{AssetError, Assets, Limits};
 use durer_imaging::decode;
 use durer_math::{DVec3, Rgb};
 use durer_scene::{
-    Channels, Encoding, Filter, ImageAsset, ImageId, ImageTexture, Mapping, Material, MaterialId, Paint, Pattern,
-    Scene, Texture, TextureId, Transform, TransformStep, Wrap,
+    Channels, Classic, Emission, Encoding, Filter, ImageAsset, ImageId, ImageTexture, Mapping, Material, MaterialId,
+    MaterialKind, Paint, Pattern, Scene, Texture, TextureId, Transform, TransformStep, Wrap,
 };
 use parse::{Entry, Map};
 use std::collections::BTreeMap;
@@ -111,13 +111,15 @@ impl<'a> Library<'a> {
 
     fn make(&mut self, entry: &Entry, warnings: &mut Warnings) -> Material {
         let plain = entry.to_material();
-        let Paint::Color(color) = plain.color else { return plain };
+        let MaterialKind::Classic(classic) = &plain.kind else { return plain };
+        let Paint::Color(color) = classic.color else { return plain };
         // Some programs write black beside an image that is meant to be seen as it is.
         let tint = if color.is_black() { Rgb::WHITE } else { color };
         let color = entry.color_map.as_ref().and_then(|map| self.texture(map, Encoding::Srgb, tint, warnings));
         let opacity = entry.opacity_map.as_ref();
         let opacity = opacity.and_then(|map| self.texture(map, Encoding::Linear, Rgb::WHITE, warnings));
-        Material { color: color.unwrap_or(plain.color), opacity: opacity.unwrap_or(plain.opacity), ..plain }
+        let kind = MaterialKind::Classic(Classic { color: color.unwrap_or(classic.color), ..classic.clone() });
+        Material { kind, opacity: opacity.unwrap_or(plain.opacity), ..plain }
     }
 
     fn texture(&mut self, map: &Map, encoding: Encoding, tint: Rgb, warnings: &mut Warnings) -> Option<Paint> {
@@ -170,7 +172,7 @@ impl<'a> Library<'a> {
 impl Entry {
     /// The material without its images.
     fn to_material(&self) -> Material {
-        let default = Material::default();
+        let default = Classic::default();
         let illumination = self.illumination.unwrap_or(2);
         let color = self.diffuse.unwrap_or(Rgb::gray(0.8));
         let specular = self.specular.unwrap_or(Rgb::BLACK);
@@ -183,7 +185,7 @@ impl Entry {
         let fresnel = illumination == 7 && ior.is_some();
         // What Fresnel's equations give is all of the reflection.
         let reflects = illumination >= 3 && !fresnel;
-        Material {
+        let classic = Classic {
             color: Paint::Color(color.map(gathered::part)),
             ambient: default.ambient * self.ambient_part(color),
             diffuse: 1.0,
@@ -193,9 +195,10 @@ impl Entry {
             transparency,
             ior,
             fresnel,
-            emission: self.emission.unwrap_or(Rgb::BLACK).map(|x| x.clamp(0.0, 1e6)),
             ..default
-        }
+        };
+        let emission = Emission::of(self.emission.unwrap_or(Rgb::BLACK).map(|x| x.clamp(0.0, 1e6)));
+        Material { emission, ..Material::of(MaterialKind::Classic(classic)) }
     }
 
     /// How much of the usual ambient light is given back. The format wants a color of its own for it, to be lit by light

@@ -7,8 +7,8 @@ use bounds::{Bounds, bounds_of};
 use durer_math::functions::{cos, sin, tan};
 use durer_math::{DVec3, Rgb, any_orthonormal_pair};
 use durer_scene::{
-    Background, Camera, Fog, Light, LightKind, Material, MaterialId, Object, ObjectKind, Paint, Picture, Projection,
-    RenderSettings, Scene, Shape, Transform, TransformStep,
+    Background, Camera, Classic, Fog, Light, LightKind, Material, MaterialId, MaterialKind, Object, ObjectKind, Paint,
+    Picture, Projection, RenderSettings, Scene, Shape, Strength, Transform, TransformStep,
 };
 
 const WIDTH: u32 = 960;
@@ -62,7 +62,7 @@ fn add(scene: &mut Scene, material: Material) -> MaterialId {
 }
 
 fn matte(color: Rgb) -> Material {
-    Material { color: Paint::Color(color), ..Material::default() }
+    Material::of(MaterialKind::Classic(Classic { color: Paint::Color(color), ..Classic::default() }))
 }
 
 /// What brings a model to where rays are precise and a scene may be: models tiny, huge or far from the origin move to the
@@ -112,7 +112,7 @@ fn camera(bounds: Bounds) -> (Camera, f64) {
     };
     let distance = bounds.corners().map(needed).into_iter().fold(reach(bounds), f64::max);
     let projection = Projection::FieldOfView { degrees: FIELD_OF_VIEW };
-    (Camera { position: center + back * distance, look_at: center, up: DVec3::Y, projection }, distance)
+    (Camera { position: center + back * distance, look_at: center, up: DVec3::Y, projection, lens: None }, distance)
 }
 
 /// A plane just below the model: what lies flat on it should not be half in it.
@@ -132,7 +132,7 @@ fn lights() -> Vec<Light> {
     let directional = |name: String, intensity, towards: DVec3| Light {
         name: Some(name),
         color: Rgb::WHITE,
-        intensity,
+        strength: Strength::Classic(intensity),
         kind: LightKind::Directional { direction: -towards },
     };
     let key = towards(KEY);

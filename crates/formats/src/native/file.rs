@@ -32,7 +32,7 @@ record!(SceneFile {
     camera: Option<Camera> = None => "Where the eye is; without it, all bounded objects are framed.";
     picture: Picture = Picture::default() => "Size and encoding of the picture.";
     render: RenderSettings = RenderSettings::default() => "How the picture is computed.";
-    background: Background = Background::default() => "What rays that leave the scene see: a color, or `{bottom: color, top: color}`.";
+    background: Background = Background::default() => "What rays that leave the scene see: a color, `{bottom: color, top: color}`, or a picture, `{image: file}`.";
     ambient: Rgb = Rgb::WHITE => "Ambient light, from everywhere: multiplies the `ambient` of each material.";
     fog: Option<Fog> = None => "Fog.";
     lights: Option<Vec<Light>> = None

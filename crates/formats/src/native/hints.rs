@@ -1,8 +1,11 @@
 //! What to say to mistakes that people who come from other programs make.
 
+use super::record::{Choice, KindAbout, Record};
 use super::suggest;
+use super::surfaces::Physical;
 use super::tree::{Entry, Node, shorten};
 use crate::diagnostics::Complaint;
+use durer_scene::Classic;
 
 const STEPS: [&str; 4] = ["translate", "rotate", "scale", "matrix"];
 
@@ -103,7 +106,29 @@ pub(crate) fn unknown_field(title: &str, name: &str, value: &Node, known: &[&str
     if matches!(name, "opacity" | "emission") && known.contains(&"material") {
         return format!("it is part of the material: `material: {{{name}: …}}`");
     }
+    if title == "material"
+        && let Some(help) = field_of_kinds(name)
+    {
+        return help;
+    }
+    if Physical::WORDS.iter().any(|(word, _)| *word == title) && Classic::about().iter().any(|field| field.key == name)
+    {
+        let fields = suggest::list(known);
+        return format!(
+            "that is a field of classic materials, which have no `{title}:`; those of `{title}` are {fields}"
+        );
+    }
     suggest::did_you_mean(name, known, &format!("fields of `{title}`"))
+}
+
+/// Help for a field that classic materials do not have, but physical ones do.
+fn field_of_kinds(name: &str) -> Option<String> {
+    let kinds = Physical::kinds();
+    let has = |kind: &&KindAbout| kind.fields.iter().any(|field| field.key == name);
+    let words: Vec<&str> = kinds.iter().filter(has).map(|kind| kind.word).collect();
+    let last = words.last()?;
+    let list = suggest::list(&words);
+    Some(format!("that is a field of {list}, of which one would be written `{last}: {{{name}: …}}`"))
 }
 
 /// Help for a kind that does not exist.

@@ -12,7 +12,10 @@ use std::sync::Arc;
 /// The image of the file `name`, or `None` after complaining (at its first use only).
 pub(super) fn load(name: &str, node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<ImageId> {
     if let Some(known) = cx.images.get(name) {
-        // A file that could not be read has been complained about; any id will do.
+        // A file that could not be read has been complained about; any id will do, and the check shall say nothing of it.
+        if known.is_none() {
+            cx.doubtful.push(node.span);
+        }
         return Some(known.unwrap_or(ImageId(0)));
     }
     let bitmap = read(name, node, cx);

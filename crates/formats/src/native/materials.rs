@@ -2,122 +2,16 @@
 
 use super::colors;
 use super::decode::{Decoder, Fields};
-use super::record::{FieldAbout, Record, fields, record, record_value};
+use super::record::{Choice, Record, example_of};
 use super::suggest;
-use super::tree::{Node, NodeKind, shorten};
+use super::surfaces::{Common, Physical, names_kind};
+use super::tree::{Entry, Node, NodeKind, shorten};
 use super::value::{Value, number_text};
 use super::write::{FieldsOut, Out, Writer};
 use crate::diagnostics::Complaint;
-use durer_math::Rgb;
-use durer_scene::{Attenuation, Material, MaterialId, Paint};
+use durer_scene::{Classic, Material, MaterialId, MaterialKind};
 use serde_json::{Value as Json, json};
 use std::rc::Rc;
-
-/// The fields of a material; its name is its key under `materials:`.
-pub(crate) struct Surface {
-    color: Paint,
-    ambient: f32,
-    diffuse: f32,
-    specular: Rgb,
-    shininess: f32,
-    reflection: Rgb,
-    transparency: Rgb,
-    ior: Option<f64>,
-    fresnel: bool,
-    attenuation: Option<Attenuation>,
-    emission: Rgb,
-    opacity: Paint,
-}
-
-record!(Surface {
-    color: Paint = Material::default().color => "Color of ambient and diffuse light given back; or a texture.";
-    ambient: f32 = Material::default().ambient => "Part of the scene's ambient light that is given back.";
-    diffuse: f32 = Material::default().diffuse => "Part of the light from lights that is given back in all directions.";
-    specular: Rgb = Rgb::BLACK => "Strength of the highlight; a number or a color.";
-    shininess: f32 = Material::default().shininess => "The higher, the smaller and sharper the highlight.";
-    reflection: Rgb = Rgb::BLACK => "Part of the mirrored light that is added, 0 to 1; a number or a color.";
-    transparency: Rgb = Rgb::BLACK => "Part of what lies behind that shows through, 0 to 1; a number or a color.";
-    ior: Option<f64> = None => "Index of refraction of the inside (water 1.33, glass 1.5). Without it, and through shapes that have no inside, light goes straight.";
-    fresnel: bool = false => "Divides the light between refraction and reflection by Fresnel's equations.";
-    attenuation: Option<Attenuation> = None => "Color taken on inside of closed shapes, by distance.";
-    emission: Rgb = Rgb::BLACK => "Light that the surface gives off by itself; a number or a color.";
-    opacity: Paint = Material::default().opacity => "How much of the surface is there, from black for holes to white: a number, or a texture.";
-});
-
-record!(Attenuation {
-    color: Rgb => "What is left of white light, each component above 0 and at most 1,";
-    distance: f64 => "after this distance.";
-});
-record_value!(Attenuation, "attenuation", Attenuation { color: Rgb::WHITE, distance: 1.0 });
-
-impl From<Surface> for Material {
-    fn from(surface: Surface) -> Material {
-        let Surface {
-            color,
-            ambient,
-            diffuse,
-            specular,
-            shininess,
-            reflection,
-            transparency,
-            ior,
-            fresnel,
-            attenuation,
-            emission,
-            opacity,
-        } = surface;
-        let name = None;
-        Material {
-            name,
-            color,
-            ambient,
-            diffuse,
-            specular,
-            shininess,
-            reflection,
-            transparency,
-            ior,
-            fresnel,
-            attenuation,
-            emission,
-            opacity,
-        }
-    }
-}
-
-impl From<&Material> for Surface {
-    fn from(material: &Material) -> Surface {
-        let Material {
-            name: _,
-            color,
-            ambient,
-            diffuse,
-            specular,
-            shininess,
-            reflection,
-            transparency,
-            ior,
-            fresnel,
-            attenuation,
-            emission,
-            opacity,
-        } = *material;
-        Surface {
-            color,
-            ambient,
-            diffuse,
-            specular,
-            shininess,
-            reflection,
-            transparency,
-            ior,
-            fresnel,
-            attenuation,
-            emission,
-            opacity,
-        }
-    }
-}
 
 impl Value for Material {
     fn noun() -> String {
@@ -127,13 +21,31 @@ impl Value for Material {
         Material::default()
     }
     fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
-        let NodeKind::Mapping(_) = &node.kind else {
+        let NodeKind::Mapping(entries) = &node.kind else {
             return cx.expected::<Self>(node);
         };
-        super::record::decode_record::<Surface>("material", node, cx).map(Material::from)
+        if names_kind(node) || misspells_kind(entries) {
+            return physical(node, cx);
+        }
+        let mut from = Fields::of_record(node, cx, "material")?;
+        let kind = MaterialKind::Classic(Classic::read(&mut from));
+        let material = Common::read_onto(kind, &mut from);
+        from.finish();
+        Some(material)
     }
     fn encode(&self, writer: &Writer<'_>) -> Out {
-        super::record::encode_record(&Surface::from(self), writer)
+        let mut out = FieldsOut::new(writer);
+        match (&self.kind, Physical::of(&self.kind)) {
+            (MaterialKind::Classic(classic), _) => classic.write(&mut out),
+            (_, Some(kind)) => kind.write(&mut out),
+            (_, None) => {}
+        }
+        Common::of(self).write(&mut out);
+        match self.kind.word() {
+            None => out.into_fields(),
+            // Never a bare word, which would be a name where a material is used.
+            Some(word) => Out::Fields(vec![(word.to_owned(), out.into_fields())]),
+        }
     }
     fn schema() -> Json {
         json!({ "$ref": "#/$defs/material" })
@@ -147,6 +59,26 @@ impl Value for Material {
             NodeKind::Sequence(_) | NodeKind::Mapping(_) => Some("for example `{color: red}`".to_owned()),
         }
     }
+}
+
+/// A material of the kind that the one key of the mapping says.
+fn physical(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Material> {
+    let words: Vec<&'static str> = Physical::WORDS.iter().map(|(word, _)| *word).collect();
+    let mut from = Fields::of_kind(node, cx, "material", &words)?;
+    let word = from.word();
+    from.set_example(example_of::<Physical>(word));
+    let kind = Physical::read(word, &mut from);
+    let material = kind.map(|kind| Common::read_onto(kind.into(), &mut from));
+    from.finish();
+    material
+}
+
+/// True for one key with fields that is nearly the word of a kind, and no field of classic materials.
+fn misspells_kind(entries: &[Entry]) -> bool {
+    let [(key, value)] = entries else { return false };
+    let (Some(name), NodeKind::Mapping(_)) = (key.text(), &value.kind) else { return false };
+    let is_field = Classic::about().iter().chain(&Common::about()).any(|field| field.key == name);
+    !is_field && suggest::nearest(name, Physical::WORDS.iter().map(|(word, _)| *word)).is_some()
 }
 
 /// Where a material is used: its name, or the material itself.
@@ -194,6 +126,9 @@ fn unknown_material(node: &Node, text: &str, cx: &Decoder<'_>) -> Complaint {
     let names: Vec<&str> = cx.material_names.keys().map(String::as_str).collect();
     if let Some(near) = suggest::nearest(text, names.iter().copied()) {
         return complaint.help(format!("did you mean `{near}`?"));
+    }
+    if Physical::WORDS.iter().any(|(word, _)| *word == text) {
+        return complaint.help(format!("for one of that kind, write `material: {{{text}: {{}}}}`"));
     }
     let is_paint = colors::parse(text).is_some() || cx.texture_names.contains_key(text) || number_text(node).is_some();
     if is_paint {

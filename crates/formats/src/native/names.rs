@@ -49,7 +49,7 @@ fn count_textures(scene: &Scene, material_uses: &[usize]) -> Vec<usize> {
     let mut uses = vec![0; scene.textures.len()];
     let is_written = |(material, uses): &(&Material, &usize)| material.name.is_some() || **uses > 0;
     let materials = scene.materials.iter().zip(material_uses).filter(is_written);
-    let mut paints: Vec<Paint> = materials.flat_map(|(material, _)| [material.color, material.opacity]).collect();
+    let mut paints: Vec<Paint> = materials.flat_map(|(material, _)| material.paints()).collect();
     let named = scene.textures.iter().filter(|texture| texture.name.is_some());
     paints.extend(named.flat_map(|texture| texture.pattern.colors()));
     while let Some(paint) = paints.pop() {

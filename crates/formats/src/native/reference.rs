@@ -1,18 +1,20 @@
 //! The reference page of the scene language, from the same definitions as the reader.
 
+use super::camera::lens_about;
 use super::file::SceneFile;
 use super::lights::Shine;
-use super::materials::Surface;
 use super::objects::Placing;
 use super::record::{Choice, DefaultAbout, FieldAbout, KindAbout, Record};
+use super::surfaces::{Common, Physical};
 use super::textures;
 use super::transform::STEPS;
 use super::value::Value;
 use super::write::Out;
-use durer_imaging::Transfer;
+use durer_imaging::{ToneMapping, Transfer};
 use durer_scene::{
-    Antialias, Attenuation, Camera, Channels, Encoding, Falloff, Filter, Fog, LightKind, Mapping, MeshNormals,
-    MeshPart, Pattern, Picture, PixelFilter, RenderSettings, Space, Wrap,
+    Antialias, Attenuation, Bump, Camera, Channels, Classic, Emission, Encoding, Environment, Falloff, Filter, Fog,
+    Integrator, LightKind, Mapping, MeshNormals, MeshPart, MetalName, NormalMap, Pattern, Picture, PixelFilter,
+    RenderSettings, Sides, Space, Wrap,
 };
 use std::fmt::Write as _;
 
@@ -84,6 +86,15 @@ pink ball of radius 1.
 Numbers that are infinite or not a number are refused. Tables have at most 1000 columns.
 ";
 
+const MATERIALS: &str = "
+```yaml
+materials:
+  red: {color: red, specular: 0.5}                # a classic one: fields
+  gold: {metal: {of: gold, roughness: 0.2}}       # a physical one: the word of its kind, and in it the fields
+  lamp: {color: black, emission: [5, 4, 3]}
+```
+";
+
 const LIMITS: &str = "## Limits
 
 Coordinates and lengths are at most 1e12 in size; radii, widths and distances are at least 1e-9; directions are at
@@ -106,11 +117,16 @@ pub fn reference_markdown() -> String {
     );
     page += "\n`image_plane: {distance: 12.5, half_height: 10}` is the angle of view of a picture of that height at that\n\
              distance; `orthographic: {height: 4}` shows that height in parallel projection. Both fields are required.\n";
+    section(&mut page, 3, "`lens`", "One of `radius` and `f_number` must be given.", &lens_about());
     section(&mut page, 2, "`picture`", "", &Picture::about());
     words(&mut page, "transfer", &Transfer::kinds());
+    words(&mut page, "tone_mapping", &ToneMapping::kinds());
     section(&mut page, 2, "`render`", "", &RenderSettings::about());
+    family(&mut page, "`integrator`", "", &Integrator::kinds(), &[]);
     family(&mut page, "`antialias`", "", &Antialias::kinds(), &[]);
     family(&mut page, "`filter` of the picture", "", &PixelFilter::kinds(), &[]);
+    let about = "As a picture of all that is around.";
+    section(&mut page, 2, "`background`", about, &Environment::about());
     family(&mut page, "`fog`", "", &Fog::kinds(), &[]);
     family(&mut page, "Lights", "Items of `lights:`.", &LightKind::kinds(), &Shine::about());
     words(&mut page, "falloff", &Falloff::kinds());
@@ -121,7 +137,17 @@ pub fn reference_markdown() -> String {
     page += DATA;
     transforms(&mut page);
     let about = "Named under `materials:`, or written at `material:`.";
-    section(&mut page, 2, "Materials", about, &Surface::about());
+    section(&mut page, 2, "Materials", about, &[]);
+    page += MATERIALS;
+    section(&mut page, 3, "All materials", "", &Common::about());
+    section(&mut page, 3, "`emission`", "If it is more than a color or texture.", &Emission::about());
+    words(&mut page, "sides", &Sides::kinds());
+    section(&mut page, 3, "`normal_map`", "If it is more than a texture.", &NormalMap::about());
+    section(&mut page, 3, "`bump`", "", &Bump::about());
+    section(&mut page, 3, "Classic materials", "Without a word for their kind.", &Classic::about());
+    family(&mut page, "Physical materials", "The kind is a word with fields.", &Physical::kinds(), &[]);
+    let metals: Vec<String> = MetalName::WORDS.iter().map(|(word, _)| format!("`{word}`")).collect();
+    let _ = writeln!(page, "\nThe metals are {}.", metals.join(", "));
     section(&mut page, 3, "`attenuation`", "", &Attenuation::about());
     let about = "Named under `textures:`, or written where a color may stand.";
     family(&mut page, "Textures", about, &Pattern::kinds(), &textures::Placing::about());

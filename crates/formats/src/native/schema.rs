@@ -4,13 +4,13 @@ use super::colors;
 use super::file::SceneFile;
 use super::lights::Shine;
 use super::lists;
-use super::materials::Surface;
 use super::objects::Placing;
 use super::record::{Choice, DefaultAbout, FieldAbout, KindAbout, Record};
+use super::surfaces::{Common, Physical};
 use super::textures;
 use super::transform::{AxisAngle, STEPS};
 use super::write::Out;
-use durer_scene::{LightKind, Pattern};
+use durer_scene::{Classic, LightKind, Pattern};
 use serde_json::{Map, Value as Json, json};
 
 /// The JSON Schema (draft 2020-12) of scene files.
@@ -23,7 +23,7 @@ pub fn json_schema() -> Json {
         "object": kinds_with(&super::objects::kinds(), &Placing::about(), "An object."),
         "light": kinds_with(&LightKind::kinds(), &Shine::about(), "A light."),
         "texture": kinds_with(&Pattern::kinds(), &textures::Placing::about(), "A texture."),
-        "material": record(&Surface::about()),
+        "material": material(),
         "paint": {
             "description": "A color, the name of a texture, or a texture.",
             "anyOf": [{ "$ref": "#/$defs/color" }, { "type": "string" }, { "$ref": "#/$defs/texture" }],
@@ -116,6 +116,18 @@ fn kinds_with(kinds: &[KindAbout], common: &[FieldAbout], about: &str) -> Json {
         "" => json!({ "anyOf": any }),
         about => json!({ "description": about, "anyOf": any }),
     }
+}
+
+/// The fields of a classic material, or a mapping of exactly one kind.
+fn material() -> Json {
+    let mut kinds = kinds_with(&Physical::kinds(), &Common::about(), "A material.");
+    let classic = record(&Classic::about().into_iter().chain(Common::about()).collect::<Vec<_>>());
+    if let Some(any) = kinds["anyOf"].as_array_mut() {
+        // No bare words: those are names.
+        any.retain(|one| one.get("oneOf").is_none());
+        any.insert(0, classic);
+    }
+    kinds
 }
 
 fn color() -> Json {

@@ -7,9 +7,12 @@ use super::record::{
 use super::tree::{Node, NodeKind};
 use super::value::{Value, number_text};
 use super::write::{FieldsOut, Out, Writer};
-use durer_imaging::Transfer;
+use crate::diagnostics::Complaint;
+use durer_imaging::{ToneMapping, Transfer};
 use durer_math::Rgb;
-use durer_scene::{Antialias, Background, Fog, Picture, PixelFilter, RenderSettings, Trees};
+use durer_scene::{
+    Antialias, Background, Environment, Fog, ImageId, Integrator, Picture, PixelFilter, RenderSettings, Trees,
+};
 use serde_json::{Value as Json, json};
 use std::rc::Rc;
 
@@ -17,6 +20,8 @@ record!(Picture {
     width: u32 = Picture::default().width => "Width in pixels.";
     height: u32 = Picture::default().height => "Height in pixels.";
     transfer: Transfer = Transfer::Srgb => "How linear light becomes the numbers of a file.";
+    exposure: f32 = 0.0 => "Makes 8- and 16-bit files brighter by a factor of 2 for each 1; stops, as photographers count.";
+    tone_mapping: ToneMapping = ToneMapping::None => "How light above 1 is brought into what 8- and 16-bit files can hold.";
 });
 record_value!(Picture, "picture", Picture::default());
 
@@ -26,15 +31,48 @@ choice! { Transfer, "transfer";
 }
 choice_value!(Transfer, Transfer::Srgb);
 
+choice! { ToneMapping, "tone mapping";
+    None "none": "What is above 1 is white.", example "tone_mapping: none", {}
+    Reinhard "reinhard": "That of Reinhard and others: soft, and less contrast.", example "tone_mapping: reinhard", {}
+    Aces "aces": "As the film industry has it: much contrast, and bright colors turn white.", example "tone_mapping: aces", {}
+    Agx "agx": "Like photographic film: bright colors fade into white.", example "tone_mapping: agx", {}
+    PbrNeutral "pbr_neutral": "Leaves colors as they are, save the brightest.", example "tone_mapping: pbr_neutral", {}
+}
+choice_value!(ToneMapping, ToneMapping::None);
+
 record!(RenderSettings {
+    integrator: Integrator = Integrator::Whitted => "What is computed.";
+    samples: Option<u32> = None => "Samples a pixel where light is sampled at random, 1 to 1e6; 64 if it is left out. With a `noise` or `time` it is the most of a pixel, 4096 if it is left out.";
+    noise: Option<f32> = None => "Where light is sampled at random: samples are taken until the error of each part of the picture is below this, as part of the white of a screen; 0.0001 to 1.";
+    time: Option<f64> = None => "Begins no samples after this many seconds.";
+    seed: u32 = 0 => "Where light is sampled at random: another number gives other noise.";
+    light_samples: u32 = 16 => "`whitted`: shadow rays to each light that has an area, up to 4096; with 0, what glows lights nothing.";
     max_depth: u32 = RenderSettings::default().max_depth
-        => "Longest chain of rays: the eye's ray has depth 1, and rays deeper than this are black; 1 to 100.";
-    min_weight: f32 = 0.001 => "Rays that count less than this in the pixel are not traced; 0 traces all.";
+        => "`whitted`: longest chain of rays: the eye's ray has depth 1, and rays deeper than this are black; 1 to 100.";
+    min_weight: f32 = 0.001 => "`whitted`: rays that count less than this in the pixel are not traced; 0 traces all.";
     antialias: Antialias = Antialias::default() => "Where in a pixel rays are sent, and how many.";
     filter: PixelFilter = PixelFilter::Box => "How samples are weighed by their distance from a pixel's middle.";
     trees: Trees = Trees::Picture => "What the trees in which rays search are built for; the picture is the same.";
 });
 record_value!(RenderSettings, "render", RenderSettings::default());
+
+choice! { Integrator, "integrator";
+    Whitted "whitted": "Classic ray tracing: mirrors, glass and shadows, without noise.", example "integrator: whitted", {}
+    Path "path": "All the light that there is, by path tracing.", example "integrator: {path: {max_depth: 32}}",
+    {
+        max_depth: u32 = 16 => "The most surfaces that light may meet on its way from a light to the eye, 1 to 1e6.";
+        clamp: Option<f32> = None => "Samples brighter than this are lowered to it: it takes away fireflies, and some light.";
+    }
+    AmbientOcclusion "ambient_occlusion": "How much of the sky each point sees.",
+    example "integrator: {ambient_occlusion: {distance: 2}}",
+    {
+        distance: Option<f64> = None => "What is further away hides nothing.";
+    }
+    Normals "normals": "The normals of what is seen, as colors.", example "integrator: normals", {}
+    Depth "depth": "How far away it is.", example "integrator: depth", {}
+    Uv "uv": "Its texture coordinates, as red and green.", example "integrator: uv", {}
+}
+choice_value!(Integrator, Integrator::Whitted);
 
 choice! { Trees, "trees";
     Preview "preview": "A first look: built in the least time.", example "trees: preview", {}
@@ -168,15 +206,29 @@ record!(Sky {
     top: Rgb => "Seen straight up.";
 });
 
+record!(Environment {
+    image: ImageId => "A picture of all directions in latitude and longitude: its file, EXR, HDR, PFM, PNG or JPEG.";
+    rotation_degrees as "rotation": f64 = 0.0
+        => "Turns it about the y axis, in degrees, counterclockwise from above. At 0 its middle is toward +x, at 90 toward -z.";
+    strength: f32 = 1.0 => "Multiplies its light.";
+});
+
 impl Value for Background {
     fn noun() -> String {
-        "a color, or {bottom: color, top: color}".to_owned()
+        "a color, {bottom: color, top: color}, or {image: file}".to_owned()
     }
     fn stand_in() -> Self {
         Background::default()
     }
     fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
         match &node.kind {
+            NodeKind::Mapping(_) if ["image", "rotation", "strength"].iter().any(|key| node.get(key).is_some()) => {
+                if node.get("image").is_none() {
+                    let complaint = Complaint::error(node.span, "`background` needs `image`");
+                    return cx.complain(complaint.help("for example `background: {image: sky.hdr, rotation: 90}`"));
+                }
+                super::record::decode_record("background", node, cx).map(Background::Image)
+            }
             NodeKind::Mapping(_) => super::record::decode_record("background", node, cx)
                 .map(|Sky { bottom, top }| Background::Gradient { bottom, top }),
             NodeKind::Scalar { .. } if node.is_null() => cx.expected::<Self>(node),
@@ -187,10 +239,12 @@ impl Value for Background {
         match *self {
             Background::Color(color) => color.encode(writer),
             Background::Gradient { bottom, top } => super::record::encode_record(&Sky { bottom, top }, writer),
+            Background::Image(map) => super::record::encode_record(&map, writer),
         }
     }
     fn schema() -> Json {
-        json!({ "anyOf": [Rgb::schema(), super::schema::record(&Sky::about())] })
+        let [sky, map] = [Sky::about(), Environment::about()].map(|about| super::schema::record(&about));
+        json!({ "anyOf": [Rgb::schema(), sky, map] })
     }
 }
 

@@ -127,6 +127,9 @@ choice_value!(Encoding, Encoding::Srgb);
 
 choice! { Channels, "channels";
     Color "color": "Its colors.", example "channels: color", {}
+    Red "red": "Its red, as gray. This and the next two are for numbers such as `roughness`.", example "channels: red", {}
+    Green "green": "Its green, as gray.", example "channels: green", {}
+    Blue "blue": "Its blue, as gray.", example "channels: blue", {}
     Alpha "alpha": "Its alpha channel, as gray; white if it has none. For the `opacity` of materials.", example "channels: alpha", {}
 }
 choice_value!(Channels, Channels::Color);

@@ -115,6 +115,33 @@ impl Value for u32 {
     }
 }
 
+impl Value for i32 {
+    fn noun() -> String {
+        "a whole number".to_owned()
+    }
+    fn stand_in() -> Self {
+        0
+    }
+    fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
+        match number_text(node).and_then(|text| text.parse::<f64>().ok()) {
+            Some(number) if number.fract() == 0.0 && number.abs() <= f64::from(i32::MAX) => Some(number as i32),
+            Some(number) if number.is_finite() && number.fract() == 0.0 => {
+                cx.refuse(node, "this number is too large: whole numbers go up to 2147483647")
+            }
+            Some(_) | None => cx.expected::<Self>(node),
+        }
+    }
+    fn encode(&self, _: &Writer<'_>) -> Out {
+        Out::Plain(self.to_string())
+    }
+    fn schema() -> Json {
+        json!({ "type": "integer" })
+    }
+    fn advice(node: &Node) -> Option<String> {
+        hints::number(node)
+    }
+}
+
 impl Value for bool {
     fn noun() -> String {
         "true or false".to_owned()

@@ -62,6 +62,11 @@ impl Mesh {
         }
     }
 
+    /// The corners of a triangle, in the mesh's own space.
+    pub(crate) fn corners(&self, part: u32) -> [DVec3; 3] {
+        self.source.triangles()[part as usize].map(|vertex| wide(self.source.positions()[vertex as usize]))
+    }
+
     pub(crate) fn triangle_count(&self) -> usize {
         self.source.triangles().len()
     }

@@ -13,6 +13,7 @@ use super::Shape;
 use crate::bvh::build::{BuildFor, Item, Leaves, Plan, build};
 use crate::bvh::traverse::{Watch, Work};
 use crate::bvh::{Bvh, Child, MAX_ITEMS};
+use crate::sample::Piece;
 use crate::simd::blocks::{Block, Hits, SLOTS, WideRay};
 use crate::simd::boxes::{Box32, BoxRay};
 use crate::simd::{capsules, frusta, spheres};
@@ -20,7 +21,7 @@ use crate::world::Best;
 use crate::{Bounds, Crossing, Ray, Slender};
 use ball::Ball;
 use capsule::Capsule;
-use durer_math::{DVec2, DVec3};
+use durer_math::{DAffine3, DVec2, DVec3};
 use fearless_simd::{Level, Simd, dispatch};
 use frustum::Frustum;
 use rayon::prelude::*;
@@ -45,6 +46,8 @@ trait Particle<const N: usize>: Copy {
     fn contains(&self, point: DVec3) -> bool;
     /// As [`Shape::rounding`].
     fn rounding(&self) -> f64;
+    /// What is aimed at, placed by a map; `None` if it is not there.
+    fn piece(&self, map: &DAffine3) -> Option<Piece>;
 }
 
 /// The blocks of one kind, in the order of the leaves.
@@ -226,6 +229,17 @@ fn place_of(part: u32) -> (usize, usize, u32) {
     (place / SLOTS, place % SLOTS, face)
 }
 
+/// Evaluates an expression for the particle and the face that a part is.
+macro_rules! of_part {
+    ($particles:expr, $part:expr, $particle:ident, $face:ident => $value:expr) => {{
+        let (block, slot, $face) = place_of($part);
+        each_kind!(&$particles.blocks, Kind, blocks => {
+            let $particle = Kind::of(blocks[block].numbers(slot));
+            $value
+        })
+    }};
+}
+
 impl Particles {
     /// What all places are relative to.
     pub fn origin(&self) -> DVec3 {
@@ -258,6 +272,36 @@ impl Particles {
                 }
             }
         });
+    }
+
+    /// Calls `visit` with the first part of each particle.
+    pub(crate) fn each_element(&self, visit: &mut dyn FnMut(u32)) {
+        each_kind!(&self.blocks, _Kind, blocks => {
+            for (index, block) in blocks.iter().enumerate() {
+                // The slots that are left over repeat the last one.
+                for slot in (0..SLOTS).filter(|&slot| slot == 0 || block.ids[slot] != block.ids[slot - 1]) {
+                    visit(part_of(index, slot, 0));
+                }
+            }
+        });
+    }
+
+    /// The first part of the particle that a part belongs to.
+    pub(crate) fn element_of(&self, part: u32) -> u32 {
+        part - part % FACES
+    }
+
+    /// What is aimed at of a particle.
+    pub(crate) fn piece(&self, element: u32, map: &DAffine3) -> Option<Piece> {
+        of_part!(self, element, particle, _face => particle.piece(map))
+    }
+
+    /// True if they have an inside.
+    pub(crate) fn are_closed(&self) -> bool {
+        match self.blocks {
+            Blocks::Spheres(_) | Blocks::Frusta(_) | Blocks::Capsules(_) => true,
+            Blocks::OpenFrusta(_) => false,
+        }
     }
 
     #[inline(always)]
@@ -343,17 +387,6 @@ fn contain<P: Particle<N>, const N: usize>(level: Level, bvh: &Bvh, blocks: &[Bl
     let in_block = |block: &Block<N>| (0..SLOTS).any(|slot| P::of(block.numbers(slot)).contains(point));
     dispatch!(level, simd => bvh.any(simd, &BoxRay::new(&here), blocks, 0.0, |leaf| blocks[leaf].iter().any(in_block)))
         == Some(true)
-}
-
-/// Evaluates an expression for the particle and the face that a part is.
-macro_rules! of_part {
-    ($particles:expr, $part:expr, $particle:ident, $face:ident => $value:expr) => {{
-        let (block, slot, $face) = place_of($part);
-        each_kind!(&$particles.blocks, Kind, blocks => {
-            let $particle = Kind::of(blocks[block].numbers(slot));
-            $value
-        })
-    }};
 }
 
 impl Shape for Particles {

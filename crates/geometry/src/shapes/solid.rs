@@ -96,6 +96,11 @@ impl Solid {
         (&leaf.shape, part)
     }
 
+    /// True if the leaf that a part belongs to is taken away.
+    pub(crate) fn is_flipped(&self, part: u32) -> bool {
+        self.leaf_and_part(part).0.flipped
+    }
+
     /// Bytes held.
     pub(crate) fn memory(&self) -> usize {
         size_of_val(self.leaves.as_slice()) + size_of_val(self.nodes.as_slice())

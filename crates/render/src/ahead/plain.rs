@@ -115,7 +115,8 @@ impl Plain {
             lanes &= sights.as_ref().map_or(0, |sights| !sights.unknown());
         }
         let mut surfaces = Surfaces::default();
-        self.lanes = match lanes != 0 && sights.len() == scene.lights.len() {
+        let all_is_known = sights.len() == scene.lights.len() && !scene.emitters.has_shapes();
+        self.lanes = match lanes != 0 && all_is_known {
             true => surfaces.find(scene, seen, lanes),
             false => 0,
         };
@@ -190,8 +191,9 @@ impl Surfaces {
 fn plain_material(scene: &CompiledScene, primitive: u32) -> Option<&Material> {
     let looks = &scene.objects[primitive as usize].looks;
     let material = scene.material(primitive);
-    let shines = [material.emission, material.specular, material.reflection, material.transparency];
-    let is_plain = !looks.has_details() && material.opacity.is_none() && shines.into_iter().all(Rgb::is_black);
+    let shines = [material.specular, material.reflection, material.transparency];
+    let is_matte = material.emission.is_none() && shines.into_iter().all(Rgb::is_black);
+    let is_plain = is_matte && !looks.has_details() && !material.needs_details();
     is_plain.then_some(material)
 }
 

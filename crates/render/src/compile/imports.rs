@@ -4,7 +4,7 @@
 //! file that is copied means its camera.
 
 use durer_math::{DAffine3, DVec3};
-use durer_scene::{Camera, Light, LightKind, Object, ObjectKind, Projection};
+use durer_scene::{Camera, Focus, Lens, Light, LightKind, Object, ObjectKind, Projection};
 
 /// What files bring to the scene beside objects.
 #[derive(Default)]
@@ -46,14 +46,16 @@ impl Brought {
     }
 }
 
-/// Scaling moves a light and changes neither its strength nor its angles.
+/// Scaling moves a light and changes neither its strength nor its angles, nor how large it is.
 fn light_in_world(light: &Light, world: &DAffine3) -> Light {
     let point = |p: DVec3| world.transform_point3(p);
     let kind = match light.kind {
-        LightKind::Point { position, falloff } => LightKind::Point { position: point(position), falloff },
-        LightKind::Spot { position, target, half_angle_degrees, inner_half_angle_degrees, falloff } => {
+        LightKind::Point { position, falloff, radius } => {
+            LightKind::Point { position: point(position), falloff, radius }
+        }
+        LightKind::Spot { position, target, half_angle_degrees, inner_half_angle_degrees, falloff, radius } => {
             let (position, target) = (point(position), point(target));
-            LightKind::Spot { position, target, half_angle_degrees, inner_half_angle_degrees, falloff }
+            LightKind::Spot { position, target, half_angle_degrees, inner_half_angle_degrees, falloff, radius }
         }
         LightKind::Directional { direction } => {
             LightKind::Directional { direction: world.transform_vector3(direction) }
@@ -72,7 +74,14 @@ fn camera_in_world(camera: &Camera, world: &DAffine3) -> Camera {
         }
         same @ (Projection::FieldOfView { .. } | Projection::ImagePlane { .. }) => same,
     };
-    Camera { position, look_at, up, projection }
+    let lens = camera.lens.map(|lens| {
+        let focus = match lens.focus {
+            Focus::Target(at) => Focus::Target(world.transform_point3(at)),
+            same @ (Focus::LookAt | Focus::Distance(_)) => same,
+        };
+        Lens { focus, ..lens }
+    });
+    Camera { position, look_at, up, projection, lens }
 }
 
 /// By how much a map stretches what stands upright in the picture.
@@ -86,7 +95,7 @@ fn stretch_upwards(camera: &Camera, world: &DAffine3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use durer_scene::{Falloff, Import, Transform, TransformStep};
+    use durer_scene::{Falloff, Import, Strength, Transform, TransformStep};
 
     fn import(lights: Vec<Light>, camera: Camera) -> Object {
         let import = Import { file: "a.glb".to_owned(), objects: Vec::new(), lights, camera: Some(camera) };
@@ -96,9 +105,9 @@ mod tests {
 
     #[test]
     fn what_is_in_a_file_moves_with_it() {
-        let kind = LightKind::Point { position: DVec3::Y, falloff: Falloff::InverseSquare };
+        let kind = LightKind::Point { position: DVec3::Y, falloff: Falloff::InverseSquare, radius: 0.0 };
         let kinds = [kind, LightKind::Directional { direction: DVec3::NEG_Y }];
-        let light = |kind| Light { name: None, color: durer_math::Rgb::WHITE, intensity: 3.0, kind };
+        let light = |kind| Light { name: None, color: durer_math::Rgb::WHITE, strength: Strength::Classic(3.0), kind };
         let camera = Camera {
             position: DVec3::Z,
             up: DVec3::new(0.0, 1.0, 5.0),
@@ -110,8 +119,8 @@ mod tests {
         let Brought { lights, camera } = Brought::by(&[group]);
         assert_eq!(lights.len(), 4);
         let position = DVec3::new(1.0, 2.0, 0.0);
-        assert_eq!(lights[0].kind, LightKind::Point { position, falloff: Falloff::InverseSquare });
-        assert_eq!(lights[0].intensity, 3.0);
+        assert_eq!(lights[0].kind, LightKind::Point { position, falloff: Falloff::InverseSquare, radius: 0.0 });
+        assert_eq!(lights[0].strength, Strength::Classic(3.0));
         assert_eq!(lights[1].kind, LightKind::Directional { direction: DVec3::NEG_Y * 2.0 });
         let camera = camera.expect("the first of two");
         assert_eq!((camera.position, camera.look_at), (DVec3::new(1.0, 0.0, 2.0), DVec3::new(1.0, 0.0, -2.0)));

@@ -6,7 +6,7 @@
 
 use crate::materials::Material;
 use durer_math::{DAffine3, Rgb};
-use durer_scene::{MeshData, Paint};
+use durer_scene::MeshData;
 use std::sync::Arc;
 
 /// Seen by all rays that look for something opaque.
@@ -81,39 +81,44 @@ impl Looks {
     /// With one material.
     pub(super) fn plain(material: u32, materials: &[Material], is_closed: impl FnOnce() -> bool) -> Looks {
         let compiled = &materials[material as usize];
+        let is_medium = compiled.fills_with_medium() && is_closed();
         Looks {
             material,
             details: NONE,
-            is_medium: compiled.fills_with_medium() && is_closed(),
-            is_clear: compiled.lets_light_pass(),
-            is_uneven: matches!(compiled.opacity, Some(Paint::Texture(_))),
+            is_medium,
+            is_clear: compiled.lets_light_pass(is_medium),
+            is_uneven: compiled.passes_unevenly(is_medium),
             has_holes: compiled.opacity.is_some(),
-            is_textured: compiled.is_textured(),
-            has_details: compiled.opacity.is_some(),
+            is_textured: compiled.is_textured,
+            has_details: compiled.needs_details(),
         }
     }
 
     /// With a material for each run of parts. What it is filled with is the first that fills anything.
     pub(super) fn of_runs(runs: &[(u32, u32)], materials: &[Material], is_closed: impl FnOnce() -> bool) -> Looks {
-        let any = |is: fn(&Material) -> bool| runs.iter().any(|&(_, id)| is(&materials[id as usize]));
         let filling = runs.iter().find(|&&(_, id)| materials[id as usize].fills_with_medium());
-        let (is_clear, has_holes) = (any(Material::lets_light_pass), any(|material| material.opacity.is_some()));
-        Looks {
-            material: filling.or(runs.first()).map_or(materials.len() as u32 - 1, |&(_, id)| id),
-            details: NONE,
-            is_medium: filling.is_some() && is_closed(),
-            is_clear,
-            is_uneven: is_clear,
-            has_holes,
-            is_textured: any(Material::is_textured),
-            has_details: has_holes,
-        }
+        let material = filling.or(runs.first()).map_or(materials.len() as u32 - 1, |&(_, id)| id);
+        Looks::filled(material, filling.is_some() && is_closed(), runs, materials)
     }
 
     /// With a material for each run of parts, and one that it is filled with.
     pub(super) fn of_solid(inside: u32, runs: &[(u32, u32)], materials: &[Material]) -> Looks {
-        let is_medium = materials[inside as usize].fills_with_medium();
-        Looks { material: inside, is_medium, ..Looks::of_runs(runs, materials, || true) }
+        Looks::filled(inside, materials[inside as usize].fills_with_medium(), runs, materials)
+    }
+
+    fn filled(material: u32, is_medium: bool, runs: &[(u32, u32)], materials: &[Material]) -> Looks {
+        let any = |is: &dyn Fn(&Material) -> bool| runs.iter().any(|&(_, id)| is(&materials[id as usize]));
+        let is_clear = any(&|material| material.lets_light_pass(is_medium));
+        Looks {
+            material,
+            details: NONE,
+            is_medium,
+            is_clear,
+            is_uneven: is_clear,
+            has_holes: any(&|material| material.opacity.is_some()),
+            is_textured: any(&|material| material.is_textured),
+            has_details: any(&|material| material.needs_details()),
+        }
     }
 
     /// The index of its details, if it has any.
@@ -130,7 +135,7 @@ impl Looks {
 
     /// The same, with details.
     pub(super) fn with_details(self, details: Option<u32>) -> Looks {
-        Looks { details: details.unwrap_or(NONE), has_details: self.has_holes || details.is_some(), ..self }
+        Looks { details: details.unwrap_or(NONE), has_details: self.has_details || details.is_some(), ..self }
     }
 
     /// The class of rays that look for it.

@@ -8,7 +8,6 @@
 //! As with the classic integrator, a sample is one sum of contributions that carry their full weight.
 
 use super::Integrator;
-use crate::background::background;
 use crate::bsdf::{Bsdf, How};
 use crate::compile::CompiledScene;
 use crate::emitters::Receiver;
@@ -18,9 +17,10 @@ use crate::media::Media;
 use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Scattering, Source, SurfaceSeen, Weighing};
 use crate::sampler::{Purpose, Sampler};
 use crate::shading::Shading;
+use crate::surfaces::Indices;
 use crate::visibility::{MOST_SURFACES, visibility};
 use durer_geometry::Ray;
-use durer_math::Rgb;
+use durer_math::{DVec3, Rgb};
 
 /// The path tracer.
 pub(crate) struct PathTracer {
@@ -45,7 +45,8 @@ impl Integrator for PathTracer {
         observer: &mut O,
     ) -> Rgb {
         let media = if scene.media_at_eye.is_empty() { Media::default() } else { Media::around(scene, ray) };
-        let state = State { kind: RayKind::Eye, ray: *ray, depth: 1, met: 0, weight: Rgb::WHITE, aimed: None };
+        let state =
+            State { kind: RayKind::Eye, ray: *ray, depth: 1, met: 0, weight: Rgb::WHITE, scale: 1.0, aimed: None };
         let mut path = Path { tracer: self, scene, sampler, media, state, sum: Rgb::BLACK, observer };
         path.follow(known);
         path.sum
@@ -74,6 +75,8 @@ struct State {
     met: u32,
     /// What light at its start counts in the sample.
     weight: Rgb,
+    /// The part of the weight that is due to radiance being another in another medium, and says nothing of how much light is left.
+    scale: f32,
     /// How it was found, if light could have been aimed at instead.
     aimed: Option<Aimed>,
 }
@@ -110,7 +113,7 @@ impl<O: Observer> Path<'_, O> {
         self.along(met.length);
         let Some(hit) = met.hit else {
             let direction = met.ray.direction;
-            let seen = background(&scene.background, direction);
+            let seen = scene.background.seen(direction);
             if !seen.is_black() {
                 let density = |receiver: &Receiver| scene.emitters.pdf_of_background(scene, receiver, direction);
                 let part = self.part_of_found(density);
@@ -132,35 +135,41 @@ impl<O: Observer> Path<'_, O> {
             }
             self.state.weight *= opacity * (1.0 / there);
         }
-        let emission = shading.material.emission;
+        let emission = shading.emission;
         if !emission.is_black() {
             let density =
                 |receiver: &Receiver| scene.emitters.pdf_of_hit(scene, receiver, &met.ray, &hit, &surface, met.length);
             let part = self.part_of_found(density);
             self.add(Source::Emission, emission * part);
         }
-        if self.state.depth >= self.tracer.max_depth {
-            self.observer.not_traced(RayKind::Reflected, self.state.weight, NotTraced::TooDeep);
-            return false;
-        }
         self.scatter(&shading)
     }
 
     /// Light that the surface gives back, and the next segment.
     fn scatter(&mut self, shading: &Shading<'_>) -> bool {
-        let frame = Frame::around(shading.normal());
-        let out = frame.to_local(-shading.direction);
-        let bsdf = Bsdf::diffuse(shading.color * shading.material.diffuse);
-        let receiver = Receiver { point: shading.origin_back(), normal: shading.normal() };
+        let Some(indices) = self.indices(shading) else {
+            // Shadow rays do not know that there is nothing.
+            self.state.aimed = None;
+            self.pass(shading, true);
+            return true;
+        };
+        let (frame, bsdf) = shading.scattering(self.scene, indices);
+        let out = shading.out_in(&frame);
+        if self.state.depth >= self.tracer.max_depth {
+            return self.end(shading, bsdf.straight(out));
+        }
+        let receiver =
+            Receiver { point: shading.origin_back(), normal: shading.normal(), passes: bsdf.spreads_through() };
         let step = self.step();
         if !bsdf.is_specular() {
-            self.aim(shading, &frame, &bsdf, &receiver);
+            self.aim(shading, (&frame, out), &bsdf, &receiver);
         }
         let lobe = self.sampler.one(step, Purpose::Lobe);
         let Some(scattered) = bsdf.sample(out, lobe, self.sampler.two(step, Purpose::Direction)) else {
             return false;
         };
         self.state.weight *= scattered.weight;
+        self.state.scale *= scattered.scale;
         let passes = scattered.direction.z < 0.0;
         let direction = frame.to_world(scattered.direction).normalize();
         let pdf = if let How::Spread { pdf } = scattered.how { Some(pdf) } else { None };
@@ -194,26 +203,54 @@ impl<O: Observer> Path<'_, O> {
         true
     }
 
+    /// Where the longest path ends, its last segment goes on through what lets light pass straight, as shadow rays do.
+    fn end(&mut self, shading: &Shading<'_>, straight: Rgb) -> bool {
+        if straight.is_black() {
+            self.observer.not_traced(RayKind::Reflected, self.state.weight, NotTraced::TooDeep);
+            return false;
+        }
+        self.state.weight *= straight;
+        self.pass(shading, shading.bounds_medium);
+        true
+    }
+
+    /// The indices of refraction before and behind a surface; `None` if there is no surface, since the medium that rules here
+    /// is the same on both sides.
+    fn indices(&mut self, shading: &Shading<'_>) -> Option<Indices> {
+        let before = self.media.ior(self.scene);
+        if !shading.bounds_medium {
+            return Some(Indices { before, behind: None });
+        }
+        let ruling = self.media.ruling(self.scene);
+        let undo = self.media.cross(shading.primitive, shading.from_outside);
+        let (behind, next) = (self.media.ior(self.scene), self.media.ruling(self.scene));
+        self.media.undo(undo);
+        let is_none = ruling.is_some() && ruling == next && shading.is_only_a_boundary(self.scene);
+        (!is_none).then_some(Indices { before, behind: Some(behind) })
+    }
+
     /// Looks for light by aiming at an emitter.
-    fn aim(&mut self, shading: &Shading<'_>, frame: &Frame, bsdf: &Bsdf, receiver: &Receiver) {
+    fn aim(&mut self, shading: &Shading<'_>, (frame, out): (&Frame, DVec3), bsdf: &Bsdf, receiver: &Receiver) {
         let (scene, step) = (self.scene, self.step());
         let choice = self.sampler.one(step, Purpose::Light);
         let at = self.sampler.two(step, Purpose::LightPoint);
         let Some(light) = scene.emitters.sample(scene, receiver, choice, at) else { return };
         let toward = frame.to_local(light.direction);
-        let (scattered, pdf) = bsdf.evaluate(frame.to_local(-shading.direction), toward);
+        let (scattered, pdf) = bsdf.evaluate(out, toward);
         let mut visible = Rgb::BLACK;
         let passes = toward.z < 0.0;
         if !scattered.is_black() && shading.is_on_far_side(light.direction) == passes {
             self.observer.shadow_ray();
             let ray = if passes { shading.ray_on(light.direction) } else { shading.ray_back(light.direction) };
+            // From the far side the way is not quite as long.
+            let reach = light.distance - (ray.origin - receiver.point).dot(light.direction);
             let vantage = light.lamp.and_then(|index| scene.light_vantages[index].as_ref());
             visible = if passes && shading.bounds_medium {
                 let mut media = self.media.clone();
                 let _ = media.cross(shading.primitive, shading.from_outside);
-                visibility(scene, &media, &ray, light.distance, vantage)
+                visibility(scene, &media, &ray, reach, vantage)
             } else {
-                visibility(scene, &self.media, &ray, light.distance, vantage)
+                visibility(scene, &self.media, &ray, reach, vantage)
             };
         }
         if let Some(index) = light.lamp {
@@ -249,7 +286,7 @@ impl<O: Observer> Path<'_, O> {
 
     /// The chance of a path of this weight to go on.
     fn survival(&self) -> f32 {
-        let weight = self.state.weight.max_component();
+        let weight = self.state.weight.max_component() / self.state.scale;
         match self.state.depth {
             depth if depth < FIRST_ROULETTE && weight > 0.0 => 1.0,
             _ => weight.min(MOST_LIKELY),
@@ -310,83 +347,4 @@ fn power_heuristic(first: f64, second: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::compile::compile;
-    use durer_scene::{Background, Light, LightKind, Material, Object, ObjectKind, Paint, Scene, Shape};
-
-    fn mean(scene: &CompiledScene, samples: u32) -> Rgb {
-        let tracer = PathTracer { max_depth: 1000, clamp: None };
-        let ray = scene.camera.ray(durer_math::DVec2::new(320.0, 240.0));
-        let estimates = (0..samples).map(|index| {
-            let sampler = Sampler::new(0, (0, 0), index);
-            tracer.radiance(scene, &ray, Known::Nothing, &sampler, &mut crate::observer::RayCounts::default())
-        });
-        estimates.fold(Rgb::BLACK, |sum, estimate| sum + estimate) * (1.0 / samples as f32)
-    }
-
-    /// From inside of a ball that gives off light L and gives back the part ρ, L/(1 - ρ) is seen everywhere.
-    #[test]
-    fn a_furnace_glows_as_its_series_says() {
-        let color = Rgb::new(0.2, 0.5, 0.8);
-        let material =
-            Material { color: Paint::Color(color), diffuse: 1.0, emission: Rgb::gray(1.0), ..Material::default() };
-        let ball = Object {
-            material: Some(durer_scene::MaterialId(0)),
-            ..Object::new(ObjectKind::Shape(Shape::Sphere { center: durer_math::DVec3::ZERO, radius: 3.0 }))
-        };
-        let scene = Scene {
-            materials: vec![material],
-            objects: vec![ball],
-            camera: Some(Default::default()),
-            lights: Vec::new(),
-            ..Scene::default()
-        };
-        let found = mean(&compile(&scene.check().unwrap()), 4096);
-        for (found, albedo) in found.to_array().into_iter().zip(color.to_array()) {
-            let expected = 1.0 / (1.0 - albedo);
-            assert!((found / expected - 1.0).abs() < 0.03, "{found}, not {expected}");
-        }
-    }
-
-    /// Under a white sky a convex white body looks white.
-    #[test]
-    fn a_white_ball_vanishes_in_a_white_sky() {
-        let material = Material { color: Paint::Color(Rgb::WHITE), diffuse: 1.0, ..Material::default() };
-        let ball = Object {
-            material: Some(durer_scene::MaterialId(0)),
-            ..Object::new(ObjectKind::Shape(Shape::Sphere { center: durer_math::DVec3::NEG_Z * 5.0, radius: 1.0 }))
-        };
-        let background = Background::Color(Rgb::WHITE);
-        let scene = Scene {
-            materials: vec![material],
-            objects: vec![ball],
-            background,
-            camera: Some(Default::default()),
-            lights: Vec::new(),
-            ..Scene::default()
-        };
-        let found = mean(&compile(&scene.check().unwrap()), 64);
-        assert!((found - Rgb::WHITE).map(f32::abs).max_component() < 1e-5, "{found:?}");
-    }
-
-    /// A lamp gives a matte surface that faces it the radiance that the classic integrator gives it.
-    #[test]
-    fn lamps_are_as_bright_as_classic_ones() {
-        let kind = LightKind::Directional { direction: durer_math::DVec3::NEG_Z };
-        let lamp = Light { name: None, color: Rgb::WHITE, intensity: 0.5, kind };
-        let (point, normal) = (durer_math::DVec3::NEG_Z * 5.0, durer_math::DVec3::Z);
-        let wall = Object::new(ObjectKind::Shape(Shape::Plane { point, normal }));
-        let background = Background::Color(Rgb::BLACK);
-        let scene = Scene {
-            objects: vec![wall],
-            background,
-            camera: Some(Default::default()),
-            lights: vec![lamp],
-            ..Scene::default()
-        };
-        let found = mean(&compile(&scene.check().unwrap()), 4);
-        // Default color 0.8, of which 0.8 is given back.
-        assert!((found - Rgb::gray(0.32)).map(f32::abs).max_component() < 1e-6, "{found:?}");
-    }
-}
+mod tests;

@@ -4,9 +4,10 @@
 //! sum: every term is added with the product of all weights on its way from the eye, so the terms can be listed and
 //! their sum, in the order of the list, is the pixel to the last bit.
 
+mod soft;
+
 use super::Integrator;
 use crate::ahead::SeenAhead;
-use crate::background::background;
 use crate::compile::CompiledScene;
 use crate::holes::{Known, find};
 use crate::materials::refract;
@@ -27,7 +28,7 @@ impl Integrator for Whitted {
         scene: &CompiledScene,
         ray: &Ray,
         known: Known<'_>,
-        _: &Sampler,
+        sampler: &Sampler,
         observer: &mut O,
     ) -> Rgb {
         if let Some(sum) = known.seen().and_then(|seen| seen.sum())
@@ -36,7 +37,7 @@ impl Integrator for Whitted {
             return sum.color;
         }
         let media = if scene.media_at_eye.is_empty() { Media::default() } else { Media::around(scene, ray) };
-        let mut path = Path { scene, media, sum: Rgb::BLACK, observer };
+        let mut path = Path { scene, sampler, lit: 0, media, sum: Rgb::BLACK, observer };
         path.trace(RayKind::Eye, 1, ray, Rgb::WHITE, known);
         path.sum
     }
@@ -45,6 +46,9 @@ impl Integrator for Whitted {
 /// All rays from one ray of the eye.
 struct Path<'a, O> {
     scene: &'a CompiledScene,
+    sampler: &'a Sampler,
+    /// How often light was looked for on something that has an area.
+    lit: u32,
     /// Around the origin of the ray being traced.
     media: Media,
     sum: Rgb,
@@ -66,7 +70,7 @@ impl<O: Observer> Path<'_, O> {
         let met = find(self.scene, ray, known, self.observer);
         let weight = self.along(met.length, weight, known.seen());
         match met.hit {
-            None => self.add(Source::Background, weight * background(&self.scene.background, ray.direction)),
+            None => self.add(Source::Background, weight * self.scene.background.seen(ray.direction)),
             Some(hit) => {
                 let seen = known.seen();
                 let ray = met.onward.as_ref().unwrap_or(ray);
@@ -112,8 +116,8 @@ impl<O: Observer> Path<'_, O> {
     #[inline(always)]
     fn shade(&mut self, shading: &Shading<'_>, weight: Rgb, seen: Option<SeenAhead<'_>>) {
         let material = shading.material;
-        if !material.emission.is_black() {
-            self.add(Source::Emission, weight * material.emission);
+        if !shading.emission.is_black() {
+            self.add(Source::Emission, weight * shading.emission);
         }
         let weight = weight * (Rgb::WHITE - material.transparency);
         if weight.is_black() {
@@ -126,6 +130,10 @@ impl<O: Observer> Path<'_, O> {
         let mut sights = seen.iter().flat_map(SeenAhead::sights);
         for (index, light) in self.scene.lights.iter().enumerate() {
             let sight = sights.next().flatten();
+            if light.radius() > 0.0 && self.scene.settings.light_samples > 0 {
+                self.shade_by_ball(shading, weight, index);
+                continue;
+            }
             let arriving = match &sight {
                 Some(sight) => light.arriving_along(sight.direction, sight.distance, sight.squared_distance),
                 None => light.arriving(point),
@@ -163,6 +171,9 @@ impl<O: Observer> Path<'_, O> {
                 let strength = highlight(shading, arriving.direction);
                 self.add(Source::Specular(index), weight * material.specular * light * strength);
             }
+        }
+        if self.scene.emitters.has_shapes() {
+            self.shade_by_shapes(shading, weight);
         }
     }
 

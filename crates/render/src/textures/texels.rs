@@ -51,7 +51,7 @@ impl Tables {
 impl Texels {
     pub(super) fn new(bitmap: &Arc<Bitmap>, channels: Channels, encoding: Encoding, tables: &mut Tables) -> Texels {
         let linear_from_stored = match channels {
-            Channels::Color => tables.get(&bitmap.texels, encoding),
+            Channels::Color | Channels::Red | Channels::Green | Channels::Blue => tables.get(&bitmap.texels, encoding),
             // Alpha is linear whatever the colours are.
             Channels::Alpha => Arc::default(),
         };
@@ -69,6 +69,9 @@ impl Texels {
         let index = row as usize * self.bitmap.width as usize + column as usize;
         match self.channels {
             Channels::Color => self.color(index),
+            Channels::Red => Rgb::gray(self.color(index).r),
+            Channels::Green => Rgb::gray(self.color(index).g),
+            Channels::Blue => Rgb::gray(self.color(index).b),
             Channels::Alpha => {
                 Rgb::gray(self.bitmap.alpha.as_ref().map_or(1.0, |alpha| alpha.get(index)).clamp(0.0, 1.0))
             }

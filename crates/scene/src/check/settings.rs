@@ -2,7 +2,11 @@
 
 use super::Step;
 use super::values::Checker;
-use crate::{Antialias, Background, Camera, Fog, Light, LightKind, Material, PixelFilter, Projection, Scene};
+use crate::{
+    Antialias, Background, Camera, Environment, Falloff, Focus, Fog, ImageId, Integrator, Lens, Light, LightKind,
+    Material, MaterialKind, Paint, PixelFilter, Projection, RenderSettings, Scene, Strength,
+};
+use durer_math::Rgb;
 
 /// The most rays that one ray of the eye may split into.
 const MOST_RAYS: f64 = 1e8;
@@ -21,6 +25,7 @@ pub(super) fn check(c: &mut Checker<'_>) {
         Background::Gradient { bottom, top } => {
             c.field("background", |c| c.light("bottom", bottom) & c.light("top", top));
         }
+        Background::Image(map) => c.field("background", |c| environment(c, map)),
     }
     c.light("ambient", scene.ambient);
     if let Some(mist) = scene.fog {
@@ -34,7 +39,7 @@ pub(super) fn check(c: &mut Checker<'_>) {
 }
 
 pub(super) fn camera(c: &mut Checker<'_>, camera: &Camera) {
-    let &Camera { position, look_at, up, projection } = camera;
+    let &Camera { position, look_at, up, projection, lens } = camera;
     let points = c.point("position", position) & c.point("look_at", look_at);
     let up_is_fine = c.direction("up", up);
     if points && c.apart(("look_at", look_at), ("position", position)) && up_is_fine {
@@ -59,6 +64,38 @@ pub(super) fn camera(c: &mut Checker<'_>, camera: &Camera) {
         }
         Projection::Orthographic { height } => _ = c.field("orthographic", |c| c.size("height", height)),
     }
+    if let Some(lens) = lens {
+        c.field("lens", |c| self::lens(c, camera, lens));
+    }
+}
+
+fn lens(c: &mut Checker<'_>, camera: &Camera, lens: Lens) {
+    let Lens { radius, focus, blades, rotation_degrees } = lens;
+    c.size("radius", radius);
+    match focus {
+        Focus::LookAt => {}
+        Focus::Distance(distance) => _ = c.size("focus", distance),
+        Focus::Target(point) => {
+            if c.point("focus", point) && camera.focus_distance().is_some_and(|distance| distance < 1e-9) {
+                let help = "it is a point that is to be sharp, in the space of the scene";
+                c.field("focus", |c| c.problem_with_help("focus must be before the camera", help));
+            }
+        }
+    }
+    let message = format!("blades must be 0, for a round aperture, or from 3 to 64, not {blades}");
+    c.require(blades == 0 || (3..=64).contains(&blades), "blades", message);
+    angle(c, "rotation", rotation_degrees);
+}
+
+fn angle(c: &mut Checker<'_>, name: &'static str, degrees: f64) {
+    c.require(degrees.abs() <= 1e6, name, format!("{name} must be at most 1e6 degrees"));
+}
+
+fn environment(c: &mut Checker<'_>, map: Environment) {
+    let Environment { image: ImageId(id), rotation_degrees, strength } = map;
+    c.require((id as usize) < c.scene.images.len(), "image", format!("there is no image {id}"));
+    angle(c, "rotation", rotation_degrees);
+    c.strength("strength", strength);
 }
 
 fn picture(c: &mut Checker<'_>) {
@@ -71,14 +108,29 @@ fn picture(c: &mut Checker<'_>) {
     if sides && pixels > MOST_PIXELS {
         c.problem(format!("a picture may have at most {} million pixels, not {pixels}", MOST_PIXELS / 1_000_000));
     }
+    c.within("exposure", picture.exposure.into(), -100.0, 100.0);
+}
+
+/// By how much the weights of the two rays, together, are greater than that of the ray that a surface splits; `None` if it
+/// does not split any.
+fn growth(material: &Material) -> Option<f64> {
+    match &material.kind {
+        MaterialKind::Classic(classic) => {
+            let (mirrored, through) = (classic.reflection, classic.transparency);
+            let splits = classic.fresnel || !(mirrored.is_black() || through.is_black());
+            splits.then(|| (mirrored + through).max_component().into())
+        }
+        MaterialKind::Glass(_) => Some(1.0),
+        // Part of the reflection, or all of it, is beside what goes through.
+        MaterialKind::Principled(principled) => (principled.transmission != Paint::Color(Rgb::BLACK)).then_some(2.0),
+        MaterialKind::Matte(_) | MaterialKind::Metal(_) | MaterialKind::Plastic(_) | MaterialKind::Mirror(_) => None,
+    }
 }
 
 /// How many rays one ray of the eye may split into, at most: it may double at each surface; and a ray that counts less
 /// than `min_weight` (in the color component where it counts most) ends, so that there are only so many on each level.
 fn most_rays(scene: &Scene) -> f64 {
-    let splits = |m: &&Material| m.fresnel || !(m.reflection.is_black() || m.transparency.is_black());
-    let sum = |m: &Material| (m.reflection + m.transparency).max_component().into();
-    let Some(growth) = scene.materials.iter().filter(splits).map(sum).reduce(f64::max) else { return 1.0 };
+    let Some(growth) = scene.materials.iter().filter_map(growth).reduce(f64::max) else { return 1.0 };
     let (mut by_depth, mut by_weight) = (1.0_f64, 1.0 / f64::from(scene.render.min_weight));
     for _ in 0..scene.render.max_depth {
         (by_depth, by_weight) = (by_depth * 2.0, by_weight * growth.max(1.0));
@@ -88,9 +140,10 @@ fn most_rays(scene: &Scene) -> f64 {
 
 fn render(c: &mut Checker<'_>) {
     let settings = c.scene.render;
+    sampling(c, settings);
     let depth = c.within("max_depth", settings.max_depth.into(), 1.0, 100.0);
     let weight = c.within("min_weight", settings.min_weight.into(), 0.0, 1.0);
-    if depth && weight && most_rays(c.scene) > MOST_RAYS {
+    if settings.integrator == Integrator::Whitted && depth && weight && most_rays(c.scene) > MOST_RAYS {
         let help = "lower `max_depth`, raise `min_weight`, or let `reflection` and `transparency` add up to less";
         c.field("max_depth", |c| c.problem_with_help("a ray may split into more than a hundred million rays", help));
     }
@@ -113,6 +166,37 @@ fn render(c: &mut Checker<'_>) {
         Antialias::Pov2 { threshold, depth } => c.field("pov2", |c| pov(c, threshold, depth)),
     });
     c.field("filter", |c| filter(c, settings.filter));
+}
+
+/// The integrator, and how much it samples.
+fn sampling(c: &mut Checker<'_>, settings: RenderSettings) {
+    c.field("integrator", |c| match settings.integrator {
+        Integrator::Path { max_depth, clamp } => c.field("path", |c| {
+            c.within("max_depth", max_depth.into(), 1.0, 1e6);
+            if let Some(clamp) = clamp {
+                let message = "clamp must be above 0 and at most 1e12; without it nothing is lowered";
+                c.require(clamp > 0.0 && clamp <= 1e12, "clamp", message);
+            }
+        }),
+        Integrator::AmbientOcclusion { distance: Some(distance) } => {
+            c.field("ambient_occlusion", |c| _ = c.size("distance", distance));
+        }
+        Integrator::AmbientOcclusion { distance: None }
+        | Integrator::Whitted
+        | Integrator::Normals
+        | Integrator::Depth
+        | Integrator::Uv => {}
+    });
+    if let Some(samples) = settings.samples {
+        c.within("samples", samples.into(), 1.0, 1e6);
+    }
+    if let Some(noise) = settings.noise {
+        c.within("noise", noise.into(), 1e-4, 1.0);
+    }
+    if let Some(time) = settings.time {
+        c.within("time", time, 0.001, 1e7);
+    }
+    c.within("light_samples", settings.light_samples.into(), 0.0, 4096.0);
 }
 
 fn pov(c: &mut Checker<'_>, threshold: f32, depth: u32) {
@@ -159,9 +243,12 @@ pub(super) fn light(c: &mut Checker<'_>, light: &Light) {
     };
     c.field(word, |c| {
         c.light("color", light.color);
-        c.strength("intensity", light.intensity);
+        strength(c, light);
         match light.kind {
-            LightKind::Point { position, falloff: _ } => _ = c.point("position", position),
+            LightKind::Point { position, falloff: _, radius } => {
+                c.point("position", position);
+                c.size_or_zero("radius", radius);
+            }
             LightKind::Directional { direction } => _ = c.direction("direction", direction),
             LightKind::Spot {
                 position,
@@ -169,7 +256,9 @@ pub(super) fn light(c: &mut Checker<'_>, light: &Light) {
                 half_angle_degrees: edge,
                 inner_half_angle_degrees: inner,
                 falloff: _,
+                radius,
             } => {
+                c.size_or_zero("radius", radius);
                 let points = c.point("position", position) & c.point("target", target);
                 if points {
                     c.apart(("target", target), ("position", position));
@@ -182,4 +271,38 @@ pub(super) fn light(c: &mut Checker<'_>, light: &Light) {
             }
         }
     });
+}
+
+/// The strength of a light, in a unit that its kind can have.
+fn strength(c: &mut Checker<'_>, light: &Light) {
+    let falloff = match light.kind {
+        LightKind::Point { falloff, .. } | LightKind::Spot { falloff, .. } => Some(falloff),
+        LightKind::Directional { .. } => None,
+    };
+    let field = match light.strength {
+        Strength::Classic(_) => "intensity",
+        Strength::RadiantIntensity(_) => "radiant_intensity",
+        Strength::Power(_) => "power",
+        Strength::Irradiance(_) => "irradiance",
+    };
+    c.strength(field, light.strength.amount());
+    match (light.strength, falloff) {
+        (Strength::Classic(_), _)
+        | (Strength::RadiantIntensity(_) | Strength::Power(_), Some(Falloff::InverseSquare))
+        | (Strength::Irradiance(_), None) => {}
+        (Strength::RadiantIntensity(_) | Strength::Power(_), Some(Falloff::None)) => {
+            let help = "`falloff: none` goes with `intensity`";
+            c.field("falloff", |c| {
+                c.problem_with_help(format!("{field} weakens with the square of the distance"), help)
+            });
+        }
+        (Strength::RadiantIntensity(_) | Strength::Power(_), None) => {
+            let help = "a directional light has an `irradiance`, or a classic `intensity`";
+            c.field(field, |c| c.problem_with_help(format!("a directional light has no {field}"), help));
+        }
+        (Strength::Irradiance(_), Some(_)) => {
+            let help = "a point or spot has a `power`, a `radiant_intensity`, or a classic `intensity`";
+            c.field(field, |c| c.problem_with_help("only directional lights have an irradiance", help));
+        }
+    }
 }

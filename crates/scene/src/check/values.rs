@@ -133,12 +133,18 @@ impl<'s> Checker<'s> {
 
     /// Light: no component negative.
     pub(super) fn light(&mut self, name: &'static str, color: Rgb) -> bool {
+        self.field(name, |c| c.light_here(name, color))
+    }
+
+    /// Light that is what the check has come to.
+    pub(super) fn light_here(&mut self, name: &str, color: Rgb) -> bool {
         if !color.is_finite() {
-            return self.field(name, |c| c.problem(format!("{name} must be finite")));
+            self.problem(format!("{name} must be finite"))
+        } else if color.min_component() < 0.0 {
+            self.problem(format!("{name} must not be negative"))
+        } else {
+            color.max_component() <= BRIGHTEST || self.problem(format!("{name} must be at most {BRIGHTEST:e}"))
         }
-        let fine = color.min_component() >= 0.0;
-        self.require(fine, name, format!("{name} must not be negative"))
-            && self.require(color.max_component() <= BRIGHTEST, name, format!("{name} must be at most {BRIGHTEST:e}"))
     }
 
     /// A part of light: every component from 0 to 1.

@@ -4,8 +4,8 @@ use super::{MATERIALS, Maker, TEXTURES};
 use durer::imaging::{Alpha, Bitmap, Texels};
 use durer::math::Rgb;
 use durer::scene::{
-    Attenuation, Channels, Encoding, Filter, ImageAsset, ImageId, ImageTexture, Mapping, Material, MaterialId, Paint,
-    Pattern, Space, Texture, TextureId, Wrap,
+    Attenuation, Channels, Classic, Emission, Encoding, Filter, ImageAsset, ImageId, ImageTexture, Mapping, Material,
+    MaterialId, MaterialKind, Paint, Pattern, Space, Texture, TextureId, Wrap,
 };
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ impl Maker<'_, '_> {
     }
 
     /// A color, or one of the first `of` textures.
-    fn paint(&mut self, of: usize) -> Paint {
+    pub(super) fn paint(&mut self, of: usize) -> Paint {
         match of > 0 && self.dice.one_in(2) {
             true => Paint::Texture(TextureId(self.dice.below(of) as u32)),
             false => Paint::Color(self.color()),
@@ -37,8 +37,7 @@ impl Maker<'_, '_> {
             }
             false => None,
         };
-        Material {
-            name: None,
+        let classic = Classic {
             color: self.paint(TEXTURES),
             ambient: self.strength(),
             diffuse: self.strength(),
@@ -53,12 +52,15 @@ impl Maker<'_, '_> {
             ior: self.option(|maker| maker.ior()),
             fresnel: self.dice.one_in(2),
             attenuation,
-            emission: if self.dice.one_in(4) { self.light_color() } else { Rgb::BLACK },
+        };
+        Material {
+            emission: if self.dice.one_in(4) { Emission::of(self.light_color()) } else { Emission::NONE },
             opacity: if self.dice.one_in(3) { self.paint(TEXTURES) } else { Paint::Color(Rgb::WHITE) },
+            ..Material::of(MaterialKind::Classic(classic))
         }
     }
 
-    fn ior(&mut self) -> f64 {
+    pub(super) fn ior(&mut self) -> f64 {
         match self.is_odd() {
             true => self.dice.one_of(&[0.1, 1.0, 1.000_000_1, 10.0]),
             false => self.dice.within(1.1, 2.0),

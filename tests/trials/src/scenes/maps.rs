@@ -1,8 +1,9 @@
 //! Scenes that must look the same: scaled, turned, renamed.
 
-use durer::math::{DAffine3, DMat3, DVec3, rotation};
+use durer::math::{DAffine3, DMat3, DVec3, Rgb, rotation};
 use durer::scene::{
-    Background, Camera, Falloff, Fog, Light, LightKind, Object, ObjectKind, Projection, Scene, Transform, TransformStep,
+    Background, Camera, Falloff, Focus, Fog, Lens, Light, LightKind, Object, ObjectKind, Projection, Scene, Transform,
+    TransformStep,
 };
 
 /// The scene with every length multiplied: places, sizes, distances of fog and media; and lamps that weaken with the square
@@ -10,14 +11,17 @@ use durer::scene::{
 pub fn scaled(mut scene: Scene, factor: f64) -> Scene {
     let map = DAffine3::from_scale(DVec3::splat(factor));
     scene.objects = vec![around(scene.objects, TransformStep::Scale(DVec3::splat(factor)))];
-    scene.camera =
-        scene.camera.map(|camera| Camera { projection: bigger(camera.projection, factor), ..seen(&camera, &map) });
+    scene.camera = scene.camera.map(|camera| Camera {
+        projection: bigger(camera.projection, factor),
+        lens: camera.lens.map(|lens| larger(lens, factor)),
+        ..seen(&camera, &map)
+    });
     scene.lights = scene.lights.into_iter().map(|light| brighter(lit(light, &map), factor)).collect();
     scene.fog = scene.fog.map(|fog| match fog {
         Fog::Exponential { color, distance } => Fog::Exponential { color, distance: distance * factor },
         Fog::Linear { color, start, end } => Fog::Linear { color, start: start * factor, end: end * factor },
     });
-    for attenuation in scene.materials.iter_mut().filter_map(|material| material.attenuation.as_mut()) {
+    for attenuation in scene.materials.iter_mut().filter_map(|material| material.attenuation_mut()) {
         attenuation.distance *= factor;
     }
     scene
@@ -34,9 +38,10 @@ pub fn turned(mut scene: Scene, axis: DVec3, degrees: f64) -> Scene {
 
 /// With a background that looks the same in all directions.
 pub fn with_plain_background(mut scene: Scene) -> Scene {
-    if let Background::Gradient { bottom, .. } = scene.background {
-        scene.background = Background::Color(bottom);
-    }
+    scene.background = Background::Color(match scene.background {
+        Background::Color(color) | Background::Gradient { bottom: color, .. } => color,
+        Background::Image(map) => Rgb::gray(map.strength.min(1.0)),
+    });
     scene
 }
 
@@ -101,27 +106,41 @@ fn bigger(projection: Projection, factor: f64) -> Projection {
     }
 }
 
+fn larger(lens: Lens, factor: f64) -> Lens {
+    let focus = match lens.focus {
+        Focus::LookAt => Focus::LookAt,
+        Focus::Distance(distance) => Focus::Distance(distance * factor),
+        Focus::Target(point) => Focus::Target(point * factor),
+    };
+    Lens { radius: lens.radius * factor, focus, ..lens }
+}
+
 fn seen(camera: &Camera, map: &DAffine3) -> Camera {
     Camera {
         position: map.transform_point3(camera.position),
         look_at: map.transform_point3(camera.look_at),
         up: direction(&map.matrix3, camera.up),
         projection: camera.projection,
+        lens: camera.lens.map(|lens| match lens.focus {
+            Focus::Target(point) => Lens { focus: Focus::Target(map.transform_point3(point)), ..lens },
+            Focus::LookAt | Focus::Distance(_) => lens,
+        }),
     }
 }
 
 fn lit(light: Light, map: &DAffine3) -> Light {
     let kind = match light.kind {
-        LightKind::Point { position, falloff } => {
-            LightKind::Point { position: map.transform_point3(position), falloff }
+        LightKind::Point { position, falloff, radius } => {
+            LightKind::Point { position: map.transform_point3(position), falloff, radius }
         }
-        LightKind::Spot { position, target, half_angle_degrees, inner_half_angle_degrees, falloff } => {
+        LightKind::Spot { position, target, half_angle_degrees, inner_half_angle_degrees, falloff, radius } => {
             LightKind::Spot {
                 position: map.transform_point3(position),
                 target: map.transform_point3(target),
                 half_angle_degrees,
                 inner_half_angle_degrees,
                 falloff,
+                radius,
             }
         }
         LightKind::Directional { direction: towards } => {
@@ -141,6 +160,10 @@ fn brighter(light: Light, factor: f64) -> Light {
         LightKind::Point { falloff, .. } | LightKind::Spot { falloff, .. } => falloff == Falloff::InverseSquare,
         LightKind::Directional { .. } => false,
     };
-    let intensity = if weakens { light.intensity * (factor * factor) as f32 } else { light.intensity };
-    Light { intensity, ..light }
+    let more = if weakens { (factor * factor) as f32 } else { 1.0 };
+    let mut light = light;
+    if let LightKind::Point { radius, .. } | LightKind::Spot { radius, .. } = &mut light.kind {
+        *radius *= factor;
+    }
+    Light { strength: light.strength.with_amount(light.strength.amount() * more), ..light }
 }

@@ -32,6 +32,7 @@ pub(super) fn source(source: Source) -> &'static str {
         Source::Diffuse(_) => "diffuse",
         Source::Specular(_) => "highlight",
         Source::Light(_) => "light that was aimed at",
+        Source::Shown => "what is shown of it",
     }
 }
 
@@ -45,6 +46,7 @@ pub(super) fn source_key(source: Source) -> &'static str {
         Source::Diffuse(_) => "diffuse",
         Source::Specular(_) => "specular",
         Source::Light(_) => "light",
+        Source::Shown => "shown",
     }
 }
 
@@ -53,7 +55,7 @@ pub(super) fn light_of(source: Source) -> Option<usize> {
     match source {
         Source::Diffuse(light) | Source::Specular(light) => Some(light),
         Source::Light(light) => light,
-        Source::Fog | Source::Background | Source::Emission | Source::Ambient => None,
+        Source::Fog | Source::Background | Source::Emission | Source::Ambient | Source::Shown => None,
     }
 }
 

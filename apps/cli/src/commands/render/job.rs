@@ -1,5 +1,6 @@
 //! One render, from the scene to the picture: a new one, or one that goes on with a checkpoint.
 
+use super::layers::most_bytes;
 use super::manner::StatsFormat;
 use super::report::{Report, Seconds};
 use super::saver::{Saver, When};
@@ -9,12 +10,13 @@ use crate::interrupt::Interrupt;
 use crate::numbers::short;
 use crate::progress::{Bar, Phase, Reached, Show};
 use crate::{output, provenance, target};
-use durer::imaging::EncodeOptions;
+use durer::imaging::{EncodeOptions, Layers};
 use durer::{
-    CheckedScene, Checkpoint, Film, Origin, PictureFile, Progress, Region, RenderError, RenderOptions, SceneHash,
-    Sources, read_checkpoint, temporary_beside,
+    CheckedScene, Checkpoint, Film, FilmLayer, Origin, PictureFile, Progress, Region, RenderError, RenderOptions,
+    SceneHash, SeenFirst, Sources, WriteError, film_layers, read_checkpoint, seen_first, temporary_beside,
 };
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
 /// What is to be done.
@@ -30,9 +32,17 @@ pub(crate) struct Job<'a> {
 /// What there is besides the film when all rays are traced.
 struct Outcome<'a> {
     file: PictureFile,
-    options: EncodeOptions,
+    what: What<'a>,
     saver: Option<&'a Saver<'a>>,
     show: Show,
+}
+
+/// What is written.
+enum What<'a> {
+    /// A picture, alone or with layers.
+    Picture(EncodeOptions, Option<Layers>),
+    /// The film itself, as checkpoints are.
+    Film(&'a Saver<'a>),
 }
 
 impl Job<'_> {
@@ -44,14 +54,29 @@ impl Job<'_> {
         if arguments.saving.checkpoint.as_ref().is_some_and(|checkpoint| same_place(checkpoint, &path)) {
             return Err(Failure::usage("--checkpoint: the checkpoint cannot be the same file as the picture"));
         }
-        let format = target::format_of(&path)?;
-        let mut options = arguments.file.encode_options(format)?;
+        let format = if target::is_film(&path) { None } else { Some(target::format_of(&path)?) };
+        let mut options = match format {
+            Some(format) => arguments.file.encode_options(format)?,
+            None => arguments.file.of_no_picture().map(|()| EncodeOptions::default())?,
+        };
         let (loaded, load) = timed(|| arguments.scene.load_with_sources(show));
         let (scene, sources) = loaded?;
         let fingerprint = durer::scene_fingerprint(scene.scene(), &sources);
         let scene = arguments.overrides.apply(scene)?;
         options.metadata = provenance::of_render(fingerprint, scene.scene(), arguments.crop);
-        options.transfer = scene.scene().picture.transfer;
+        let layers = match format {
+            Some(format) => arguments.layers.of_file(format, &scene.scene().render.integrator)?,
+            None => None,
+        };
+        if !scene.scene().render.integrator.takes_samples() && (format.is_none() || arguments.sample_range.is_some()) {
+            let integrator = scene.scene().render.integrator.word();
+            return Err(Failure::usage(format!(
+                "`{integrator}` takes no samples, of which there could be parts or a film; `path` does"
+            )));
+        }
+        let picture = scene.scene().picture;
+        (options.transfer, options.exposure, options.tone_mapping) =
+            (picture.transfer, picture.exposure, picture.tone_mapping);
         let region = self.region(&scene)?;
         arguments.scene.admit(&scene)?;
         let saver = self.saver(&scene, &sources)?;
@@ -64,19 +89,31 @@ impl Job<'_> {
         interrupt.watch();
         let mut file = PictureFile::create(&path)?;
         interrupt.removes(file.temporary());
-        file.reserve(options.most_bytes(region.width, region.height))?;
+        file.reserve(match format {
+            Some(_) => most_bytes(&options, layers.as_deref(), (region.width, region.height)),
+            None => checkpoint_bytes_a_pixel(&scene) * region.pixels(),
+        })?;
         if let Some(saver) = &saver {
             interrupt.removes(&temporary_beside(saver.path()));
             if is_new && saving_from_the_start(arguments) {
                 // Only a try: what it takes is free again at once.
-                PictureFile::create(saver.path())?.reserve(14 * region.pixels())?;
+                PictureFile::create(saver.path())?.reserve(checkpoint_bytes_a_pixel(&scene) * region.pixels())?;
             }
         }
         let rays_before = film.as_ref().map_or(0, |film| film.rays().total());
-        let (mut film, build, render) = self.trace(&scene, (film, region), &interrupt, saver.as_ref(), show)?;
-        let report = Report::new(arguments.scene.path.clone(), path, format, &film).after(rays_before);
+        let wanted = layers.as_deref().unwrap_or_default();
+        let (mut film, seen, [build, render]) =
+            self.trace(&scene, (film, region, wanted), &interrupt, saver.as_ref(), show)?;
+        let report =
+            Report::new(arguments.scene.path.clone(), path, format, &film, picture.exposure).after(rays_before);
         let report = report.with_seconds(Seconds { load, build, render, write: 0.0 }).stopped_by(interrupt.reason());
-        self.finish(&mut film, Outcome { file, options, saver: saver.as_ref(), show }, report)
+        let layers = layers.map(|layers| film_layers(&film, seen.as_ref(), &layers, options.exr_samples));
+        let what = match (format, &saver) {
+            (Some(_), _) => What::Picture(options, layers),
+            (None, Some(saver)) => What::Film(saver),
+            (None, None) => return Err(Failure::usage("films need names of files that are UTF-8")),
+        };
+        self.finish(&mut film, Outcome { file, what, saver: saver.as_ref(), show }, report)
     }
 
     /// The part that is rendered, if it lies within the picture.
@@ -114,7 +151,7 @@ impl Job<'_> {
             Ok(old) if old.film.region() == region && old.scene == *saver.hash() => {
                 saver.found(&old.film);
                 if !self.manner.quiet {
-                    let share = 100.0 * old.film.finished_pixels() as f64 / region.pixels() as f64;
+                    let share = 100.0 * share_done(&old.film);
                     let (path, share) = (path.display(), short(share.floor()));
                     output::note(&format!(
                         "note: {path} has {share} % of this picture; this begins anew, `durer resume {path}` goes on"
@@ -134,22 +171,28 @@ impl Job<'_> {
         }
     }
 
-    /// The film, and the seconds for building and for tracing.
+    /// The film, what is seen first if layers want it, and the seconds for building and for tracing.
     fn trace(
         &self,
         scene: &CheckedScene,
-        (film, region): (Option<Film>, Region),
+        (film, region, layers): (Option<Film>, Region, &[FilmLayer]),
         interrupt: &Interrupt,
         saver: Option<&Saver<'_>>,
         show: Show,
-    ) -> Result<(Film, f64, f64), Failure> {
+    ) -> Result<(Film, Option<SeenFirst>, [f64; 2]), Failure> {
         durer::with_threads(self.manner.threads.map(usize::from), || {
             let simd = self.arguments.simd.unwrap_or_default();
             let (compiled, build) = timed(|| self.arguments.scene.compile_for(scene, simd, show));
             let compiled = compiled?;
-            let already = film.as_ref().map_or(0, Film::finished_pixels);
-            let watch = Watch { bar: Bar::new(interrupt.stop_flag(), already, show), saver };
-            let options = RenderOptions { threads: None, region: Some(region) };
+            let already = film.as_ref().map_or(0, Film::done);
+            let bar = Bar::new(interrupt.stop_flag(), already, show);
+            let watch = Watch { bar, saver, total: AtomicU64::new(region.pixels()) };
+            let options = RenderOptions {
+                threads: None,
+                region: Some(region),
+                samples: self.arguments.sample_range,
+                direct: layers.iter().any(|layer| layer.is_of_paths()),
+            };
             let (film, render) = timed(|| match film {
                 Some(film) => durer::render_on(&compiled, film, &options, &watch),
                 None => durer::render(&compiled, &options, &watch),
@@ -158,16 +201,22 @@ impl Job<'_> {
             if let Some(saver) = saver {
                 saver.settle();
             }
-            Ok((film?, build, render))
+            let film = film?;
+            let wants_seen = layers.iter().any(|layer| layer.is_seen_first());
+            let options = RenderOptions { region: Some(film.region()), ..RenderOptions::default() };
+            let find_seen = || seen_first(&compiled, &options, &Stop(interrupt.stop_flag()));
+            let seen = wants_seen.then(find_seen).transpose()?;
+            Ok((film, seen, [build, render]))
         })?
     }
 
     /// Writes what there is, and says so.
     fn finish(&self, film: &mut Film, outcome: Outcome<'_>, mut report: Report) -> Result<Exit, Failure> {
-        let Outcome { file, options, saver, show } = outcome;
-        let reached = |remaining| Some(Reached { finished: film.finished_pixels(), total: report.pixels(), remaining });
+        let Outcome { file, what, saver, show } = outcome;
+        let (finished, total) = (film.done(), (film.done() as f64 / share_done(film).max(1e-9)).round() as u64);
+        let reached = |remaining| Some(Reached { finished, total, remaining });
         let (complete, interrupted) = (reached(Some(0.0)), reached(None));
-        if film.finished_pixels() == 0 {
+        if film.done() == 0 {
             show.tell("interrupted", interrupted);
             report.tell_nothing();
             return Err(Failure::Told(Exit::Interrupted));
@@ -178,7 +227,7 @@ impl Job<'_> {
         };
         let (bytes, write) = timed(|| {
             let _phase = Phase::begin("writing", &self.arguments.output_path().to_string_lossy(), show);
-            film.with_picture(|image| file.write(image, &options))
+            write(file, film, what)
         });
         let kept = match (saver, bytes.is_ok() && report.is_complete()) {
             (Some(saver), false) => self.keep(saver, film, bytes.is_err()),
@@ -227,26 +276,69 @@ impl Job<'_> {
     }
 }
 
+/// Writes the film, or what is made of it; gives the number of bytes.
+fn write(file: PictureFile, film: &mut Film, what: What<'_>) -> Result<usize, WriteError> {
+    match what {
+        What::Picture(mut options, layers) => {
+            options.metadata.extend(film.sums().map(provenance::of_samples));
+            match layers {
+                Some(layers) => file.write_layers(layers, &options),
+                None => film.with_picture(|image| file.write(image, &options)),
+            }
+        }
+        What::Film(saver) => file.write_bytes(&saver.bytes(film)),
+    }
+}
+
+/// Stops when the flag is set.
+struct Stop<'a>(&'a AtomicBool);
+
+impl Progress for Stop<'_> {
+    fn stop(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
 /// Shows progress, and has checkpoints written.
 struct Watch<'a> {
     bar: Bar<'a>,
     saver: Option<&'a Saver<'a>>,
+    /// How much there is to do, as last heard.
+    total: AtomicU64,
 }
 
 impl Progress for Watch<'_> {
-    fn finished(&self, pixels: u64, of: u64) {
-        self.bar.finished(pixels, of);
+    fn finished(&self, done: u64, of: u64) {
+        self.total.store(of, Ordering::Relaxed);
+        self.bar.finished(done, of);
     }
 
     fn advanced(&self, film: &Film) {
         if let Some(saver) = self.saver {
-            let (elapsed, remaining) = self.bar.times(film.region().pixels());
+            let (elapsed, remaining) = self.bar.times(self.total.load(Ordering::Relaxed));
             saver.advanced(film, remaining.map(|remaining| elapsed + remaining));
         }
     }
 
     fn stop(&self) -> bool {
         self.bar.stop()
+    }
+
+    fn elapsed(&self) -> Option<f64> {
+        self.bar.elapsed()
+    }
+}
+
+/// How much of a film is done, from 0 to 1; of one that takes samples where there is noise, at least.
+fn share_done(film: &Film) -> f64 {
+    match film.sums() {
+        _ if film.is_complete() => 1.0,
+        Some(sums) => {
+            let wanted: u64 =
+                sums.parts.iter().map(|part| part.region.pixels() * u64::from(part.samples.count())).sum();
+            sums.samples() as f64 / wanted as f64
+        }
+        None => film.finished_pixels() as f64 / film.region().pixels() as f64,
     }
 }
 
@@ -261,7 +353,9 @@ fn fitting(checkpoint: Checkpoint, saver: &Saver<'_>, region: Region) -> Result<
     if checkpoint.film.region() != region {
         return Err(Failure::file(format!("cannot go on with {path}: it is not of the part that it says")));
     }
-    saver.found(&checkpoint.film);
+    if !saver.is_off() {
+        saver.found(&checkpoint.film);
+    }
     Ok(checkpoint.film)
 }
 
@@ -272,6 +366,11 @@ fn same_place(a: &Path, b: &Path) -> bool {
         folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
     };
     a.file_name() == b.file_name() && folder(a) == folder(b)
+}
+
+/// Of a pixel in a checkpoint.
+fn checkpoint_bytes_a_pixel(scene: &CheckedScene) -> u64 {
+    if scene.scene().render.integrator.takes_samples() { 77 } else { 14 }
 }
 
 fn saving_from_the_start(arguments: &Arguments) -> bool {

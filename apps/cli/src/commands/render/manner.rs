@@ -32,6 +32,11 @@ pub(super) enum StatsFormat {
 }
 
 impl Manner {
+    /// True if only warnings and errors are shown.
+    pub(crate) fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+
     /// How progress is shown from now on.
     pub(super) fn show(&self) -> Show {
         match self.progress {

@@ -5,7 +5,7 @@ use crate::numbers::{bytes, short, thousands};
 use crate::output;
 use durer::imaging::FileFormat;
 use durer::math::DVec2;
-use durer::{BadSample, Film, RayCounts, Region};
+use durer::{BadSample, Film, RayCounts, Region, Sums};
 use serde_json::json;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -14,7 +14,8 @@ use std::path::PathBuf;
 pub(super) struct Report {
     scene: PathBuf,
     path: PathBuf,
-    format: FileFormat,
+    /// `None` for a film.
+    format: Option<FileFormat>,
     region: Region,
     finished: u64,
     rays: RayCounts,
@@ -22,10 +23,45 @@ pub(super) struct Report {
     rays_before: u64,
     bad_samples: u64,
     first_bad_sample: Option<BadSample>,
+    samples: Option<Samples>,
     bytes: usize,
     seconds: Seconds,
     /// What stopped it, if anything did.
     stopped_by: &'static str,
+}
+
+/// The samples of pixels.
+#[derive(Clone, Copy)]
+struct Samples {
+    least: u32,
+    most: u32,
+    mean: f64,
+    /// As many as a pixel was to have, at most.
+    wanted: u32,
+    /// As goals for noise measure it.
+    noise: Option<f64>,
+}
+
+impl Samples {
+    /// For the line at the end.
+    fn text(&self) -> String {
+        let count =
+            if self.least == self.most { self.least.to_string() } else { format!("{} to {}", self.least, self.most) };
+        let noise = self.noise.map_or(String::new(), |noise| format!(", noise {}", short((noise * 1e4).round() / 1e4)));
+        format!(", {count} samples a pixel{noise}")
+    }
+
+    fn of(sums: &Sums, noise: Option<f64>) -> Samples {
+        let (least, most) = sums.least_and_most();
+        let pixels = sums.taken.len();
+        Samples {
+            least,
+            most,
+            mean: sums.samples() as f64 / pixels as f64,
+            wanted: sums.parts.iter().map(|part| part.samples.count()).max().unwrap_or(0),
+            noise,
+        }
+    }
 }
 
 /// Seconds of wall time for each step.
@@ -39,7 +75,7 @@ pub(super) struct Seconds {
 
 impl Report {
     /// What the film says.
-    pub(super) fn new(scene: PathBuf, path: PathBuf, format: FileFormat, film: &Film) -> Report {
+    pub(super) fn new(scene: PathBuf, path: PathBuf, format: Option<FileFormat>, film: &Film, exposure: f32) -> Report {
         Report {
             scene,
             path,
@@ -50,6 +86,7 @@ impl Report {
             rays_before: 0,
             bad_samples: film.bad_samples(),
             first_bad_sample: film.first_bad_sample(),
+            samples: film.sums().map(|sums| Samples::of(sums, film.noise(exposure))),
             bytes: 0,
             seconds: Seconds::default(),
             stopped_by: "interrupted",
@@ -118,8 +155,9 @@ impl Report {
             0 => String::new(),
             count => format!(" ({} more cut off as too deep)", thousands(count)),
         };
+        let samples = self.samples.map_or(String::new(), |samples| samples.text());
         output::note(&format!(
-            "{}: {width} × {height} pixels, {}; {} eye ({} a pixel), {} reflected, {} transmitted, {} shadow rays{cut_off}, {:.2} Mrays/s; \
+            "{}: {width} × {height} pixels, {}{samples}; {} eye ({} a pixel), {} reflected, {} transmitted, {} shadow rays{cut_off}, {:.2} Mrays/s; \
              load {load:.3} s, build {build:.3} s, render {render:.3} s",
             self.written_path().display(),
             bytes(self.bytes as u64),
@@ -132,9 +170,10 @@ impl Report {
         ));
     }
 
-    /// Of the pixels that are finished.
+    /// Of the pixels that are finished, or have samples.
     fn eye_rays_per_pixel(&self) -> f64 {
-        self.rays.eye as f64 / (self.finished.max(1)) as f64
+        let pixels = if self.samples.is_some() { self.pixels() } else { self.finished };
+        self.rays.eye as f64 / pixels.max(1) as f64
     }
 
     /// Says which samples had no colour.
@@ -153,6 +192,16 @@ impl Report {
 
     /// Says that the picture is not complete.
     pub(super) fn tell_interrupted(&self) {
+        if let Some(Samples { least, most, wanted, .. }) = self.samples {
+            let taken = if least == most { least.to_string() } else { format!("{least} to {most}") };
+            return output::note(&format!(
+                "{}: {} has {taken} of {wanted} samples a pixel; {} {}",
+                self.stopped_by,
+                self.written_path().display(),
+                self.path.display(),
+                self.fate(),
+            ));
+        }
         let share = 100.0 * self.finished as f64 / self.pixels() as f64;
         output::note(&format!(
             "{}: {} has {} of {} pixels ({} %), the others are black; {} {}",
@@ -180,7 +229,7 @@ impl Report {
         output::print_json(&json!({
             "scene": self.scene.to_string_lossy(),
             "output": self.written_path().to_string_lossy(),
-            "format": self.format.name().to_lowercase(),
+            "format": self.format.map_or("film".to_owned(), |format| format.name().to_lowercase()),
             "bytes": self.bytes,
             "region": { "x": x, "y": y, "width": width, "height": height },
             "pixels": self.pixels(),
@@ -191,6 +240,10 @@ impl Report {
                 "total": self.rays.total(), "cut_off": cut_off,
             },
             "eye_rays_per_pixel": self.eye_rays_per_pixel(),
+            "samples": self.samples.map(|Samples { least, most, mean, wanted, noise }| {
+                let a_second = mean * self.pixels() as f64 / render.max(1e-9);
+                json!({ "least": least, "most": most, "mean": mean, "wanted": wanted, "noise": noise, "per_second": a_second })
+            }),
             "mrays_per_second": self.mrays_per_second(),
             "seconds": { "load": load, "build": build, "render": render, "write": write },
             "bad_samples": self.bad_samples,

@@ -46,7 +46,7 @@ struct Turn {
     /// The file at the path is that of this render.
     is_ours: bool,
     has_failed: bool,
-    /// The file at the path has so many finished pixels from an earlier run; one with fewer does not take its place.
+    /// The film at the path has come so far in an earlier run; one that has not does not take its place.
     at_least: u64,
     next: Instant,
 }
@@ -76,7 +76,7 @@ impl<'a> Saver<'a> {
     pub(super) fn found(&self, film: &Film) {
         let mut turn = lock(&self.turn);
         turn.is_ours = true;
-        turn.at_least = film.finished_pixels();
+        turn.at_least = film.done();
     }
 
     pub(super) fn path(&self) -> &Path {
@@ -97,13 +97,13 @@ impl<'a> Saver<'a> {
             turn.next = Instant::now();
         }
         let is_time = turn.when == When::Always && !turn.is_busy && Instant::now() >= turn.next;
-        if !is_time || film.is_complete() || film.finished_pixels() <= turn.at_least {
+        if !is_time || film.is_complete() || film.done() <= turn.at_least {
             return;
         }
         turn.is_busy = true;
         drop(turn);
         let start = Instant::now();
-        let bytes = encode_checkpoint(&self.origin, self.hash(), film);
+        let bytes = self.bytes(film);
         let mut writer = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
         let writer = writer.get_or_insert_with(|| self.start_writer());
         // The writer waits for this; it ends only after the sender is gone.
@@ -129,6 +129,16 @@ impl<'a> Saver<'a> {
         Writer { sender, thread }
     }
 
+    /// True if there are to be no checkpoints.
+    pub(super) fn is_off(&self) -> bool {
+        lock(&self.turn).when == When::Never
+    }
+
+    /// The bytes of a file with this film.
+    pub(super) fn bytes(&self, film: &Film) -> Vec<u8> {
+        encode_checkpoint(&self.origin, self.hash(), film)
+    }
+
     /// Waits until nothing is being written any more.
     pub(super) fn settle(&self) {
         if let Some(Writer { sender, thread }) = self.writer.lock().unwrap_or_else(PoisonError::into_inner).take() {
@@ -146,8 +156,8 @@ impl<'a> Saver<'a> {
 
     /// Writes a last checkpoint, now, unless there is one with more on it.
     pub(super) fn save(&self, film: &Film) -> io::Result<()> {
-        if film.finished_pixels() > lock(&self.turn).at_least {
-            write_whole(&self.path, &encode_checkpoint(&self.origin, self.hash(), film))?;
+        if film.done() > lock(&self.turn).at_least {
+            write_whole(&self.path, &self.bytes(film))?;
         }
         Ok(())
     }

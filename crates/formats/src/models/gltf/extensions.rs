@@ -5,11 +5,14 @@ use super::source::Source;
 use crate::native::tree::shorten;
 
 /// What is read.
-const READ: [&str; 10] = [
+const READ: [&str; 13] = [
     "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
     "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_unlit",

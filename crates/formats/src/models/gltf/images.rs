@@ -5,7 +5,7 @@ use super::source::Source;
 use super::value::{Place, Value};
 use crate::limits::textures;
 use crate::{Exceeded, Limit};
-use durer_imaging::{Alpha, Bitmap, Texels, Transfer, decode};
+use durer_imaging::{Alpha, Bitmap, Texels, decode};
 use durer_math::functions::{cos, sin};
 use durer_math::{DAffine3, DMat3, DVec3, Rgb};
 use durer_scene::{
@@ -23,12 +23,8 @@ pub(super) struct Images {
     pub(super) textures: Vec<Texture>,
     /// The id of each picture, by what it is made from.
     ids: HashMap<Key, ImageId>,
-    /// The mean of each picture that was asked for it, and whether its numbers were taken as sRGB.
-    means: HashMap<(usize, bool), Rgb>,
     /// Pixels of all pictures that are kept.
     bytes: u64,
-    /// Pixels of all pictures that were read for their mean only.
-    bytes_of_means: u64,
 }
 
 /// What a picture is made from: an image, with the least alpha that counts as there.
@@ -47,6 +43,15 @@ pub(super) struct TextureUse {
     transform: Transform,
     wrap: Wrap,
     filter: Filter,
+}
+
+/// What the numbers of an image mean.
+#[derive(Clone, Copy)]
+pub(super) enum Meaning {
+    /// Colors for screens.
+    Color,
+    /// The numbers in these channels, as they are.
+    Numbers(Channels),
 }
 
 /// The `magFilter` without blending.
@@ -129,10 +134,16 @@ pub(super) fn matrix_step(map: &DAffine3) -> TransformStep {
 }
 
 impl Images {
-    /// A texture of the image's colors.
-    pub(super) fn color(&mut self, source: &Source<'_>, used: &TextureUse, tint: Rgb) -> Result<Paint, ModelError> {
+    /// A texture of the image, times a color.
+    pub(super) fn show(
+        &mut self,
+        source: &Source<'_>,
+        used: &TextureUse,
+        meaning: Meaning,
+        tint: Rgb,
+    ) -> Result<Paint, ModelError> {
         let image = self.image(source, used, None)?;
-        Ok(self.paint(used, image, Channels::Color, tint))
+        Ok(self.paint(used, image, meaning, tint))
     }
 
     /// A texture of the image's alpha; `None` if it has none.
@@ -144,7 +155,7 @@ impl Images {
     ) -> Result<Option<Paint>, ModelError> {
         let image = self.image(source, used, None)?;
         let has_alpha = self.images[image.0 as usize].bitmap.alpha.is_some();
-        Ok(has_alpha.then(|| self.paint(used, image, Channels::Alpha, Rgb::gray(factor))))
+        Ok(has_alpha.then(|| self.paint(used, image, Meaning::Numbers(Channels::Alpha), Rgb::gray(factor))))
     }
 
     /// A texture that is white where the image's alpha is at least `cutoff`, black elsewhere; `None` if it has no alpha.
@@ -159,31 +170,14 @@ impl Images {
             return Ok(None);
         }
         let image = self.image(source, used, Some(cutoff))?;
-        Ok(Some(self.paint(used, image, Channels::Alpha, Rgb::WHITE)))
+        Ok(Some(self.paint(used, image, Meaning::Numbers(Channels::Alpha), Rgb::WHITE)))
     }
 
-    /// The mean of an image's colors, linear, with its numbers taken as sRGB or as linear.
-    pub(super) fn mean(
-        &mut self,
-        source: &Source<'_>,
-        used: &TextureUse,
-        encoding: Encoding,
-    ) -> Result<Rgb, ModelError> {
-        let key = (used.image, encoding == Encoding::Srgb);
-        if let Some(mean) = self.means.get(&key) {
-            return Ok(*mean);
-        }
-        let bitmap = match self.ids.get(&Key { image: used.image, cutoff: None }) {
-            Some(id) => Arc::clone(&self.images[id.0 as usize].bitmap),
-            None => Arc::new(read(source, used, &mut self.bytes_of_means)?),
+    fn paint(&mut self, used: &TextureUse, image: ImageId, meaning: Meaning, tint: Rgb) -> Paint {
+        let (channels, encoding) = match meaning {
+            Meaning::Color => (Channels::Color, Encoding::Srgb),
+            Meaning::Numbers(channels) => (channels, Encoding::Linear),
         };
-        let mean = mean(&bitmap, encoding);
-        self.means.insert(key, mean);
-        Ok(mean)
-    }
-
-    fn paint(&mut self, used: &TextureUse, image: ImageId, channels: Channels, tint: Rgb) -> Paint {
-        let encoding = if channels == Channels::Color { Encoding::Srgb } else { Encoding::Linear };
         let (wrap, filter) = (used.wrap, used.filter);
         let image = ImageTexture { image, mapping: Mapping::Uv, wrap, filter, encoding, channels, tint };
         self.textures.push(Texture { name: None, transform: used.transform.clone(), pattern: Pattern::Image(image) });
@@ -235,33 +229,6 @@ fn take_alpha(source: &Source<'_>, bitmap: &Bitmap, taken: &mut u64, place: Plac
     }
     let exceeded = Exceeded { limit: Limit::Textures, asked: Some(*taken), allowed };
     Err(place.fault(format!("with this, the images are too large: {exceeded}")).help(exceeded.help()))
-}
-
-/// The mean of a picture's colors, linear, each component from 0 to 1.
-fn mean(bitmap: &Bitmap, encoding: Encoding) -> Rgb {
-    let transfer = match encoding {
-        Encoding::Srgb => Transfer::Srgb,
-        Encoding::Linear => Transfer::Linear,
-    };
-    let linear = |most: u16| -> Vec<f64> {
-        let stored = (0..=most).map(|number| f32::from(number) / f32::from(most));
-        stored.map(|stored| transfer.linear_from_stored(stored).into()).collect()
-    };
-    let sum = match &bitmap.texels {
-        Texels::U8(texels) => sum(texels, &linear(u8::MAX.into()), |number| number.into()),
-        Texels::U16(texels) => sum(texels, &linear(u16::MAX), |number| number.into()),
-        Texels::F32(texels) => texels.iter().fold(DVec3::ZERO, |sum, texel| sum + DVec3::from(texel.map(f64::from))),
-    };
-    let mean = sum / (f64::from(bitmap.width) * f64::from(bitmap.height));
-    // What is no number is black.
-    let component = |component: f64| if component > 0.0 { component.min(1.0) as f32 } else { 0.0 };
-    Rgb::from(mean.to_array().map(component))
-}
-
-/// The sum of what the numbers of texels stand for.
-fn sum<T: Copy>(texels: &[[T; 3]], meaning: &[f64], index: impl Fn(T) -> usize) -> DVec3 {
-    let add = |sum: DVec3, texel: &[T; 3]| sum + DVec3::from(texel.map(|number| meaning[index(number)]));
-    texels.iter().fold(DVec3::ZERO, add)
 }
 
 /// Nothing but an alpha channel: all where that of `bitmap` is at least `cutoff`, nothing elsewhere.

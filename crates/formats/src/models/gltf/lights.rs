@@ -5,7 +5,7 @@ use super::nodes::Graph;
 use super::source::Source;
 use super::value::Value;
 use durer_math::{DAffine3, DVec3, Rgb};
-use durer_scene::{Camera, Falloff, Light, LightKind, Projection};
+use durer_scene::{Camera, Falloff, Light, LightKind, Projection, Strength};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 /// The brightest light that scenes allow.
@@ -34,7 +34,7 @@ pub(super) fn light<'a>(
     }
     let kind = match light.text("type")? {
         Some("directional") => LightKind::Directional { direction: frame.ahead },
-        Some("point") => LightKind::Point { position: frame.position, falloff: Falloff::InverseSquare },
+        Some("point") => LightKind::Point { position: frame.position, falloff: Falloff::InverseSquare, radius: 0.0 },
         Some("spot") => spot(&light, &frame)?,
         _ => return Err(light.fault("`type` must be directional, point or spot")),
     };
@@ -47,7 +47,7 @@ pub(super) fn light<'a>(
         color: Rgb::from(color.map(|component| component.clamp(0.0, BRIGHTEST) as f32)),
         // A white matte surface gives back 1/π of the light that falls on it to each side; that of a classic renderer
         // gives back all.
-        intensity: (intensity / PI).clamp(0.0, BRIGHTEST) as f32,
+        strength: Strength::Classic((intensity / PI).clamp(0.0, BRIGHTEST) as f32),
         kind,
     }))
 }
@@ -65,6 +65,7 @@ fn spot(light: &Value<'_>, frame: &Frame) -> Result<LightKind, ModelError> {
         half_angle_degrees: outer.to_degrees(),
         inner_half_angle_degrees: inner.clamp(0.0, outer).to_degrees(),
         falloff: Falloff::InverseSquare,
+        radius: 0.0,
     })
 }
 
@@ -98,7 +99,7 @@ pub(super) fn camera<'a>(
         (None, None) => return Err(camera.fault("this camera is neither perspective nor orthographic")),
     };
     let Frame { position, ahead, up } = frame;
-    Ok(Some(Camera { position, look_at: position + ahead, up, projection }))
+    Ok(Some(Camera { position, look_at: position + ahead, up, projection, lens: None }))
 }
 
 /// Where a node looks from and to.

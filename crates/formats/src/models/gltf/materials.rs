@@ -1,12 +1,15 @@
-//! Materials: from metal and roughness to the classic ones. The formulas are in the description of [`super`].
+//! Materials: glTF's metallic-roughness model is the scene's principled one.
 
 use super::super::ModelError;
-use super::images::{Images, TextureUse};
+use super::images::{Images, Meaning, TextureUse};
 use super::source::Source;
 use super::value::Value;
 use durer_math::Rgb;
-use durer_scene::{Attenuation, Encoding, Material, MaterialId, Paint};
+use durer_scene::{
+    Attenuation, Channels, Classic, Emission, Material, MaterialId, MaterialKind, NormalMap, Paint, Principled, Relief,
+};
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 
 /// The materials that are used, with their textures.
 #[derive(Default)]
@@ -29,27 +32,29 @@ pub(super) struct Finish {
     pub(super) has_alpha: bool,
 }
 
-/// Reflections weaker than this are not worth a ray each.
-const LEAST_REFLECTION: f32 = 0.01;
-/// The sharpest highlight; sharper ones fall between the pixels.
-const MOST_SHININESS: f32 = 10_000.0;
-/// Rougher than this, what shines through would be blurred visibly.
-const LEAST_ROUGH: f32 = 0.2;
 /// The brightest light that scenes allow.
 const BRIGHTEST: f64 = 1e6;
+/// The greatest index of refraction that scenes allow.
+const GREATEST_IOR: f64 = 10.0;
+/// What is mirrored straight back at an index of 1.5.
+const USUAL_REFLECTANCE: f32 = 0.04;
 
-/// A surface as glTF describes it, from either of its two models.
-struct Surface {
+/// A material while it is read.
+struct Reader<'m, 's, 'a> {
+    images: &'m mut Images,
+    source: &'s Source<'a>,
+    /// The set of texture coordinates of its first texture.
+    uv_set: Option<usize>,
+}
+
+/// What the two models of glTF have in common.
+struct Base<'a> {
+    /// Where its fields stand.
+    value: Option<Value<'a>>,
     /// Linear.
-    base: Rgb,
+    color: Rgb,
     alpha: f32,
     texture: Option<TextureUse>,
-    metallic: f32,
-    roughness: f32,
-    /// What is mirrored straight back where it is not metal.
-    reflectance: Rgb,
-    /// Without highlights, and lit by nothing.
-    unlit: bool,
 }
 
 impl Materials {
@@ -63,227 +68,277 @@ impl Materials {
         if let Some(known) = self.known.get(&index) {
             return Ok(*known);
         }
-        note_unused_textures(source, value)?;
-        let surface = self.surface(source, value)?;
-        let color = match &surface.texture {
-            Some(texture) => self.images.color(source, texture, surface.base)?,
-            None => Paint::Color(surface.base),
-        };
-        // The mean takes a look at every pixel.
-        let metal = if surface.metallic > 0.0 { self.mean_base(source, &surface)? } else { Rgb::BLACK };
-        let mut material = Material { color, ..classic(&surface, metal) };
-        self.add_transmission(source, value, &surface, &mut material)?;
-        self.add_alpha(source, value, &surface, &mut material)?;
-        self.add_emission(source, value, &surface, &mut material)?;
-        let has_texture = surface.texture.is_some();
+        let mut reader = Reader { images: &mut self.images, source, uv_set: None };
+        let (material, base) = reader.material(value)?;
+        let uv_set = reader.uv_set;
         let finish = Finish {
             id: MaterialId(self.list.len() as u32),
-            uv_set: surface.texture.as_ref().map_or(0, |texture| texture.uv_set),
-            tint: if has_texture { Rgb::WHITE } else { surface.base },
-            has_texture,
+            uv_set: uv_set.unwrap_or(0),
+            tint: if base.texture.is_some() { Rgb::WHITE } else { base.color },
+            has_texture: uv_set.is_some(),
             has_alpha: !matches!(value.text("alphaMode")?, None | Some("OPAQUE")),
         };
         self.list.push(material);
         self.known.insert(index, finish);
         Ok(finish)
     }
+}
 
-    fn surface<'a>(&mut self, source: &Source<'a>, material: &Value<'a>) -> Result<Surface, ModelError> {
-        let unlit = material.extension("KHR_materials_unlit")?.is_some();
-        if let Some(glossy) = material.extension("KHR_materials_pbrSpecularGlossiness")? {
-            return specular_glossiness(source, &glossy, unlit);
-        }
-        let (mut base, mut alpha, mut texture) = (Rgb::WHITE, 1.0, None);
-        let (mut metallic, mut roughness) = (1.0, 1.0);
-        if let Some(pbr) = material.object("pbrMetallicRoughness")? {
-            (base, alpha) = color_and_alpha(&pbr, "baseColorFactor")?;
-            texture = TextureUse::of(source, &pbr, "baseColorTexture")?;
-            (metallic, roughness) = (fraction(&pbr, "metallicFactor", 1.0)?, fraction(&pbr, "roughnessFactor", 1.0)?);
-            if !unlit && let Some(map) = TextureUse::of(source, &pbr, "metallicRoughnessTexture")? {
-                source.notes.add("only the mean of metallic-roughness textures is used", material.place);
-                let mean = self.images.mean(source, &map, Encoding::Linear)?;
-                (metallic, roughness) = (metallic * mean.b, roughness * mean.g);
-            }
-        }
-        Ok(Surface { base, alpha, texture, metallic, roughness, reflectance: reflectance(source, material)?, unlit })
+impl<'a> Reader<'_, '_, 'a> {
+    fn material(&mut self, value: &Value<'a>) -> Result<(Material, Base<'a>), ModelError> {
+        self.note_unused(value)?;
+        let glossy = value.extension("KHR_materials_pbrSpecularGlossiness")?;
+        let base = match &glossy {
+            Some(glossy) => self.base(Some(*glossy), "diffuseFactor", "diffuseTexture")?,
+            None => self.base(value.object("pbrMetallicRoughness")?, "baseColorFactor", "baseColorTexture")?,
+        };
+        let color = match &base.texture {
+            Some(texture) => self.images.show(self.source, texture, Meaning::Color, base.color)?,
+            None => Paint::Color(base.color),
+        };
+        let is_unlit = value.extension("KHR_materials_unlit")?.is_some();
+        let kind = if is_unlit {
+            MaterialKind::Classic(Classic { color, ambient: 1.0, diffuse: 0.0, ..Classic::default() })
+        } else if let Some(glossy) = &glossy {
+            MaterialKind::Principled(Box::new(self.specular_glossiness(glossy, color)?))
+        } else {
+            MaterialKind::Principled(Box::new(self.principled(value, &base, color)?))
+        };
+        let opacity = self.opacity(value, &base)?;
+        let (emission, relief) = match is_unlit {
+            true => (Emission::NONE, None),
+            false => (self.emission(value)?, self.relief(value)?),
+        };
+        Ok((Material { name: None, kind, emission, opacity, relief }, base))
     }
 
-    /// The color, where only one can be used.
-    fn mean_base(&mut self, source: &Source<'_>, surface: &Surface) -> Result<Rgb, ModelError> {
-        match &surface.texture {
-            Some(texture) => Ok(surface.base * self.images.mean(source, texture, Encoding::Srgb)?),
-            None => Ok(surface.base),
-        }
-    }
-
-    /// KHR_materials_transmission and KHR_materials_volume.
-    fn add_transmission<'a>(
+    fn base(
         &mut self,
-        source: &Source<'a>,
-        value: &Value<'a>,
-        surface: &Surface,
-        material: &mut Material,
-    ) -> Result<(), ModelError> {
-        let Some(extension) = value.extension("KHR_materials_transmission")? else { return Ok(()) };
-        let transmission = fraction(&extension, "transmissionFactor", 0.0)? * (1.0 - surface.metallic);
-        if transmission == 0.0 || surface.unlit {
+        value: Option<Value<'a>>,
+        factor: &'static str,
+        field: &'static str,
+    ) -> Result<Base<'a>, ModelError> {
+        let (mut color, mut alpha, mut texture) = (Rgb::WHITE, 1.0, None);
+        if let Some(value) = &value {
+            (color, alpha) = color_and_alpha(value, factor)?;
+            texture = self.texture(value, field)?;
+        }
+        Ok(Base { value, color, alpha, texture })
+    }
+
+    /// KHR_materials_pbrSpecularGlossiness: what is mirrored straight back is said as a color, and nothing is metal.
+    fn specular_glossiness(&mut self, glossy: &Value<'a>, base_color: Paint) -> Result<Principled, ModelError> {
+        if glossy.has("specularGlossinessTexture") {
+            self.source.notes.add("specular-glossiness textures are not used", glossy.place);
+        }
+        Ok(Principled {
+            base_color,
+            roughness: gray(1.0 - fraction(glossy, "glossinessFactor", 1.0)?),
+            specular_color: Paint::Color(color(glossy, "specularFactor")? * (1.0 / USUAL_REFLECTANCE)),
+            ..Principled::default()
+        })
+    }
+
+    fn principled(&mut self, value: &Value<'a>, base: &Base<'a>, base_color: Paint) -> Result<Principled, ModelError> {
+        let (mut metallic, mut roughness) = (gray(1.0), gray(1.0));
+        if let Some(pbr) = &base.value {
+            let map = "metallicRoughnessTexture";
+            metallic = self.amount(pbr, "metallicFactor", 1.0, map, Channels::Blue)?;
+            roughness = self.amount(pbr, "roughnessFactor", 1.0, map, Channels::Green)?;
+        }
+        let mut principled = Principled { base_color, metallic, roughness, ..Principled::default() };
+        self.add_specular(value, &mut principled)?;
+        self.add_transmission(value, &mut principled)?;
+        self.add_coat_and_sheen(value, &mut principled)?;
+        self.add_anisotropy(value, &mut principled)?;
+        Ok(principled)
+    }
+
+    /// KHR_materials_ior and KHR_materials_specular. An index that scenes do not have becomes the nearest, and the color of
+    /// the reflection makes up for it; 0 stands for infinity in the extension.
+    fn add_specular(&mut self, value: &Value<'a>, principled: &mut Principled) -> Result<(), ModelError> {
+        let ior = ior(value)?;
+        principled.ior = if ior == 0.0 { GREATEST_IOR } else { ior.clamp(1.0, GREATEST_IOR) };
+        let missing = match straight_back(principled.ior) {
+            least if least > 0.0 && principled.ior != ior => straight_back(ior) / least,
+            _ => 1.0,
+        };
+        let Some(specular) = value.extension("KHR_materials_specular")? else {
+            principled.specular_color = gray(missing);
             return Ok(());
+        };
+        principled.specular = self.amount(&specular, "specularFactor", 1.0, "specularTexture", Channels::Alpha)?;
+        let [r, g, b] = specular.numbers("specularColorFactor")?.unwrap_or([1.0; 3]);
+        let factor = Rgb::from([r, g, b].map(|factor: f64| factor.clamp(0.0, BRIGHTEST) as f32)) * missing;
+        principled.specular_color = self.tinted(&specular, factor, "specularColorTexture")?;
+        Ok(())
+    }
+
+    /// KHR_materials_transmission and KHR_materials_volume; without a thickness, a surface is a sheet.
+    fn add_transmission(&mut self, value: &Value<'a>, principled: &mut Principled) -> Result<(), ModelError> {
+        if let Some(extension) = value.extension("KHR_materials_transmission")? {
+            principled.transmission =
+                self.amount(&extension, "transmissionFactor", 0.0, "transmissionTexture", Channels::Red)?;
         }
-        if surface.roughness > LEAST_ROUGH {
-            source.notes.add("rough transparent materials are shown clear", value.place);
-        }
-        material.transparency = self.mean_base(source, surface)? * transmission;
-        // The renderer takes what passes away from the rest, by color; the share of the rest is to be 1 - transmission.
-        let left = 1.0 - material.transparency.luminance();
-        let share = if left > 0.0 { ((1.0 - transmission) / left).min(1.0) } else { 0.0 };
-        (material.diffuse, material.ambient) = (material.diffuse * share, material.ambient * share);
-        if let Some(volume) = value.extension("KHR_materials_volume")?
-            && volume.number("thicknessFactor")?.unwrap_or(0.0) > 0.0
-        {
-            material.ior = Some(ior(value)?.clamp(1.0, 10.0));
-            material.fresnel = true;
-            material.reflection = material.reflection * (1.0 - transmission);
-            material.attenuation = attenuation(&volume)?;
+        let volume = value.extension("KHR_materials_volume")?;
+        let thickness = volume.map(|volume| volume.number("thicknessFactor")).transpose()?.flatten();
+        principled.thin = !thickness.is_some_and(|thickness| thickness > 0.0);
+        if let Some(volume) = volume.filter(|_| !principled.thin) {
+            principled.attenuation = attenuation(&volume)?;
         }
         Ok(())
     }
 
-    /// `alphaMode`: all there is; or by degrees, from the factor as transparency and from the texture as opacity.
-    fn add_alpha<'a>(
-        &mut self,
-        source: &Source<'a>,
-        value: &Value<'a>,
-        surface: &Surface,
-        material: &mut Material,
-    ) -> Result<(), ModelError> {
-        let alpha = surface.alpha;
-        match value.text("alphaMode")? {
-            None | Some("OPAQUE") => {}
+    /// KHR_materials_clearcoat and KHR_materials_sheen.
+    fn add_coat_and_sheen(&mut self, value: &Value<'a>, principled: &mut Principled) -> Result<(), ModelError> {
+        if let Some(coat) = value.extension("KHR_materials_clearcoat")? {
+            let (strength, roughness) = ("clearcoatTexture", "clearcoatRoughnessTexture");
+            principled.clearcoat = self.amount(&coat, "clearcoatFactor", 0.0, strength, Channels::Red)?;
+            principled.clearcoat_roughness =
+                self.amount(&coat, "clearcoatRoughnessFactor", 0.0, roughness, Channels::Green)?;
+        }
+        if let Some(sheen) = value.extension("KHR_materials_sheen")? {
+            let factor = sheen.numbers::<3>("sheenColorFactor")?.unwrap_or([0.0; 3]);
+            let factor = Rgb::from(factor.map(|component| component.clamp(0.0, 1.0) as f32));
+            principled.sheen_color = self.tinted(&sheen, factor, "sheenColorTexture")?;
+            let roughness = "sheenRoughnessTexture";
+            principled.sheen_roughness =
+                self.amount(&sheen, "sheenRoughnessFactor", 0.0, roughness, Channels::Alpha)?;
+        }
+        Ok(())
+    }
+
+    /// KHR_materials_anisotropy.
+    fn add_anisotropy(&mut self, value: &Value<'a>, principled: &mut Principled) -> Result<(), ModelError> {
+        let Some(extension) = value.extension("KHR_materials_anisotropy")? else { return Ok(()) };
+        let texture = "anisotropyTexture";
+        principled.anisotropy = self.amount(&extension, "anisotropyStrength", 0.0, texture, Channels::Blue)?;
+        if extension.has(texture) {
+            let sentence = "the directions in anisotropy textures are not used, only their strengths";
+            self.source.notes.add(sentence, value.place);
+        }
+        let turns = extension.number("anisotropyRotation")?.unwrap_or(0.0) / TAU;
+        principled.anisotropy_rotation = gray((turns - turns.floor()) as f32);
+        Ok(())
+    }
+
+    /// `alphaMode`: all there is; or what the factor and the texture say; or where that reaches the cutoff.
+    fn opacity(&mut self, value: &Value<'a>, base: &Base<'a>) -> Result<Paint, ModelError> {
+        let alpha = base.alpha;
+        Ok(match value.text("alphaMode")? {
+            None | Some("OPAQUE") => gray(1.0),
             Some("BLEND") => {
-                let by_texture = match &surface.texture {
-                    Some(texture) => self.images.alpha(source, texture, alpha)?,
+                let by_texture = match &base.texture {
+                    Some(texture) => self.images.alpha(self.source, texture, alpha)?,
                     None => None,
                 };
-                match by_texture {
-                    Some(opacity) => material.opacity = opacity,
-                    None => material.transparency = material.transparency * alpha + Rgb::gray(1.0 - alpha),
-                }
+                by_texture.unwrap_or(gray(alpha))
             }
             Some("MASK") => {
                 let cutoff = value.number("alphaCutoff")?.unwrap_or(0.5) as f32;
-                let by_texture = match &surface.texture {
-                    Some(texture) if alpha > 0.0 => self.images.mask(source, texture, cutoff / alpha)?,
+                let by_texture = match &base.texture {
+                    Some(texture) if alpha > 0.0 => self.images.mask(self.source, texture, cutoff / alpha)?,
                     _ => None,
                 };
-                match by_texture {
-                    Some(opacity) => material.opacity = opacity,
-                    None if alpha < cutoff => material.opacity = Paint::Color(Rgb::BLACK),
-                    None => {}
-                }
+                by_texture.unwrap_or(gray(if alpha < cutoff { 0.0 } else { 1.0 }))
             }
             Some(_) => return Err(value.fault("alphaMode must be OPAQUE, MASK or BLEND")),
-        }
-        Ok(())
+        })
     }
 
     /// `emissiveFactor` and KHR_materials_emissive_strength.
-    fn add_emission<'a>(
-        &mut self,
-        source: &Source<'a>,
-        value: &Value<'a>,
-        surface: &Surface,
-        material: &mut Material,
-    ) -> Result<(), ModelError> {
-        if surface.unlit {
-            return Ok(());
-        }
+    fn emission(&mut self, value: &Value<'a>) -> Result<Emission, ModelError> {
         let [r, g, b] = value.numbers("emissiveFactor")?.unwrap_or([0.0; 3]);
         let strength = match value.extension("KHR_materials_emissive_strength")? {
             Some(extension) => extension.number("emissiveStrength")?.unwrap_or(1.0),
             None => 1.0,
         };
-        let factor = Rgb::from([r, g, b].map(|factor| (factor * strength).clamp(0.0, BRIGHTEST) as f32));
+        let factor = Rgb::from([r, g, b].map(|factor: f64| factor.clamp(0.0, 1.0) as f32));
         if factor.is_black() {
-            return Ok(());
+            return Ok(Emission::NONE);
         }
-        material.emission = match TextureUse::of(source, value, "emissiveTexture")? {
-            Some(texture) => {
-                source.notes.add("only the mean of emissive textures is used", value.place);
-                factor * self.images.mean(source, &texture, Encoding::Srgb)?
+        let color = self.tinted(value, factor, "emissiveTexture")?;
+        Ok(Emission { color, strength: strength.clamp(0.0, BRIGHTEST) as f32, ..Emission::NONE })
+    }
+
+    /// `normalTexture`.
+    fn relief(&mut self, value: &Value<'a>) -> Result<Option<Relief>, ModelError> {
+        let Some(texture) = self.texture(value, "normalTexture")? else { return Ok(None) };
+        let scale = value.object("normalTexture")?.map(|reference| reference.number("scale")).transpose()?.flatten();
+        let strength = scale.unwrap_or(1.0).clamp(0.0, BRIGHTEST) as f32;
+        let texture = self.images.show(self.source, &texture, Meaning::Numbers(Channels::Color), Rgb::WHITE)?;
+        Ok(Some(Relief::NormalMap(NormalMap { texture, strength })))
+    }
+
+    /// A number from 0 to 1, times a channel of a texture.
+    fn amount(
+        &mut self,
+        value: &Value<'a>,
+        factor: &'static str,
+        or: f32,
+        field: &'static str,
+        channel: Channels,
+    ) -> Result<Paint, ModelError> {
+        let factor = fraction(value, factor, or)?;
+        if factor == 0.0 {
+            return Ok(gray(0.0));
+        }
+        match self.texture(value, field)? {
+            Some(texture) => self.images.show(self.source, &texture, Meaning::Numbers(channel), Rgb::gray(factor)),
+            None => Ok(gray(factor)),
+        }
+    }
+
+    /// A color, times that of a texture.
+    fn tinted(&mut self, value: &Value<'a>, factor: Rgb, field: &'static str) -> Result<Paint, ModelError> {
+        if factor.is_black() {
+            return Ok(Paint::Color(factor));
+        }
+        match self.texture(value, field)? {
+            Some(texture) => self.images.show(self.source, &texture, Meaning::Color, factor),
+            None => Ok(Paint::Color(factor)),
+        }
+    }
+
+    /// A texture of the material. Meshes have one set of texture coordinates: that of the first texture.
+    fn texture(&mut self, value: &Value<'a>, field: &'static str) -> Result<Option<TextureUse>, ModelError> {
+        let texture = TextureUse::of(self.source, value, field)?;
+        if let Some(texture) = &texture
+            && *self.uv_set.get_or_insert(texture.uv_set) != texture.uv_set
+        {
+            let sentence = "all textures of a material are laid on by the texture coordinates of the first";
+            self.source.notes.add(sentence, value.place);
+        }
+        Ok(texture)
+    }
+
+    /// Notes the textures that are not used.
+    fn note_unused(&self, material: &Value<'a>) -> Result<(), ModelError> {
+        let note = |from: Option<Value<'_>>, field, sentence| {
+            if from.is_some_and(|from| from.has(field)) {
+                self.source.notes.add(sentence, material.place);
             }
-            None => factor,
         };
+        let occlusion = "occlusion textures are not used: where light does not come is computed";
+        note(Some(*material), "occlusionTexture", occlusion);
+        note(material.extension("KHR_materials_volume")?, "thicknessTexture", "thickness textures are not used");
+        let coat = material.extension("KHR_materials_clearcoat")?;
+        note(coat, "clearcoatNormalTexture", "clear coats have no normal textures of their own");
         Ok(())
     }
 }
 
-/// KHR_materials_pbrSpecularGlossiness.
-fn specular_glossiness<'a>(source: &Source<'a>, glossy: &Value<'a>, unlit: bool) -> Result<Surface, ModelError> {
-    let (base, alpha) = color_and_alpha(glossy, "diffuseFactor")?;
-    if glossy.has("specularGlossinessTexture") {
-        source.notes.add("specular-glossiness textures are not used", glossy.place);
-    }
-    Ok(Surface {
-        base,
-        alpha,
-        texture: TextureUse::of(source, glossy, "diffuseTexture")?,
-        metallic: 0.0,
-        roughness: 1.0 - fraction(glossy, "glossinessFactor", 1.0)?,
-        reflectance: color(glossy, "specularFactor")?,
-        unlit,
-    })
+fn gray(amount: f32) -> Paint {
+    Paint::Color(Rgb::gray(amount))
 }
 
-/// Everything that follows from metal, with its mean color, and roughness alone.
-fn classic(surface: &Surface, metal: Rgb) -> Material {
-    let &Surface { metallic, roughness, reflectance, unlit, .. } = surface;
-    let default = Material::default();
-    if unlit {
-        return Material { ambient: 1.0, diffuse: 0.0, ..default };
-    }
-    let smooth = (1.0 - roughness) * (1.0 - roughness);
-    let shininess = shininess(roughness);
-    let diffuse = 1.0 - metallic * smooth;
-    let reflection = reflectance.lerp(metal, metallic) * smooth;
-    Material {
-        ambient: default.ambient * diffuse,
-        diffuse,
-        specular: highlight(reflectance, shininess).lerp(metal * (1.0 - roughness), metallic),
-        shininess,
-        reflection: if reflection.max_component() < LEAST_REFLECTION { Rgb::BLACK } else { reflection },
-        ..default
-    }
-}
-
-/// Phong's exponent for a roughness: half that of Blinn's 2/α² - 2 with α = roughness², and half again, since Phong's
-/// angle, between the mirrored light and the eye, is twice Blinn's.
-fn shininess(roughness: f32) -> f32 {
-    let alpha = roughness * roughness;
-    (0.5 / (alpha * alpha) - 0.5).clamp(1.0, MOST_SHININESS)
-}
-
-/// The strength of Phong's highlight whose lobe gives back this part of the light, at most 1.
-fn highlight(reflectance: Rgb, shininess: f32) -> Rgb {
-    let peak = reflectance * ((shininess + 2.0) * 0.5);
-    peak * (1.0 / peak.max_component().max(1.0))
-}
-
-/// The part of light that a surface which is not metal mirrors straight back: KHR_materials_ior and KHR_materials_specular.
-fn reflectance<'a>(source: &Source<'a>, material: &Value<'a>) -> Result<Rgb, ModelError> {
-    let ior = ior(material)?;
+/// The part of light that a smooth boundary of this index mirrors straight back; 0 stands for infinity.
+fn straight_back(ior: f64) -> f32 {
     let root = ((ior - 1.0) / (ior + 1.0)) as f32;
-    let plain = Rgb::gray(root * root);
-    let Some(specular) = material.extension("KHR_materials_specular")? else { return Ok(plain) };
-    if specular.has("specularTexture") || specular.has("specularColorTexture") {
-        source.notes.add("specular textures are not used", material.place);
-    }
-    let factor = fraction(&specular, "specularFactor", 1.0)?;
-    let [r, g, b] = specular.numbers("specularColorFactor")?.unwrap_or([1.0; 3]);
-    let color = Rgb::from([r, g, b].map(|factor| factor.clamp(0.0, BRIGHTEST) as f32));
-    Ok((plain * color).map(|component| component.min(1.0)) * factor)
+    root * root
 }
 
-/// The index of refraction. 0 stands for infinity in the extension.
+/// The index of refraction.
 fn ior(material: &Value<'_>) -> Result<f64, ModelError> {
     match material.extension("KHR_materials_ior")? {
         Some(extension) => Ok(extension.number("ior")?.unwrap_or(1.5).clamp(0.0, 1e6)),
@@ -299,21 +354,6 @@ fn attenuation(volume: &Value<'_>) -> Result<Option<Attenuation>, ModelError> {
         }
         _ => Ok(None),
     }
-}
-
-/// Notes the textures that are not used yet.
-fn note_unused_textures(source: &Source<'_>, material: &Value<'_>) -> Result<(), ModelError> {
-    let note = |from: Option<Value<'_>>, field, sentence| {
-        if from.is_some_and(|from| from.has(field)) {
-            source.notes.add(sentence, material.place);
-        }
-    };
-    note(Some(*material), "normalTexture", "normal textures are not used");
-    note(Some(*material), "occlusionTexture", "occlusion textures are not used");
-    let transmission = material.extension("KHR_materials_transmission")?;
-    note(transmission, "transmissionTexture", "transmission textures are not used");
-    note(material.extension("KHR_materials_volume")?, "thicknessTexture", "thickness textures are not used");
-    Ok(())
 }
 
 fn fraction(from: &Value<'_>, field: &'static str, or: f32) -> Result<f32, ModelError> {

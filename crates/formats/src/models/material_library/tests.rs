@@ -23,7 +23,7 @@ fn material(statements: &str) -> Material {
 }
 
 fn gray(material: &Material) -> f32 {
-    match material.color {
+    match material.as_classic().unwrap().color {
         Paint::Color(color) => color.r,
         Paint::Texture(_) => panic!("a texture"),
     }
@@ -44,9 +44,19 @@ fn what_is_no_usable_number_is_left_out_and_said() {
 #[test]
 fn a_matte_surface_gives_back_its_color() {
     let plain = material("Kd 0.25 0.5 1");
-    assert_eq!(plain.color, Paint::Color(Rgb::new(0.25, 0.5, 1.0)));
-    assert_eq!((plain.diffuse, plain.specular, plain.reflection), (1.0, Rgb::BLACK, Rgb::BLACK));
-    assert_eq!((plain.transparency, plain.ior, plain.emission), (Rgb::BLACK, None, Rgb::BLACK));
+    assert_eq!(plain.as_classic().unwrap().color, Paint::Color(Rgb::new(0.25, 0.5, 1.0)));
+    assert_eq!(
+        (
+            plain.as_classic().unwrap().diffuse,
+            plain.as_classic().unwrap().specular,
+            plain.as_classic().unwrap().reflection
+        ),
+        (1.0, Rgb::BLACK, Rgb::BLACK)
+    );
+    assert_eq!(
+        (plain.as_classic().unwrap().transparency, plain.as_classic().unwrap().ior, plain.emission),
+        (Rgb::BLACK, None, Emission::NONE)
+    );
     assert_eq!(plain.name, None);
     assert_eq!(gray(&material("Kd 0.5")), 0.5, "one number is gray");
     assert_eq!(gray(&material("Kd 7 7 7")), 1.0);
@@ -56,46 +66,70 @@ fn a_matte_surface_gives_back_its_color() {
 fn highlights_follow_the_model_of_illumination() {
     let shiny = |model: &str| material(&format!("Kd 1 1 1\nKs 0.5 0.4 0.3\nNs 96.5\n{model}"));
     for model in ["", "illum 2", "illum 3", "illum 5"] {
-        assert_eq!((shiny(model).specular, shiny(model).shininess), (Rgb::new(0.5, 0.4, 0.3), 96.5));
+        assert_eq!(
+            (shiny(model).as_classic().unwrap().specular, shiny(model).as_classic().unwrap().shininess),
+            (Rgb::new(0.5, 0.4, 0.3), 96.5)
+        );
     }
-    assert_eq!(shiny("illum 1").specular, Rgb::BLACK);
-    assert_eq!((shiny("illum 2").reflection, shiny("illum 3").reflection), (Rgb::BLACK, Rgb::new(0.5, 0.4, 0.3)));
+    assert_eq!(shiny("illum 1").as_classic().unwrap().specular, Rgb::BLACK);
+    assert_eq!(
+        (shiny("illum 2").as_classic().unwrap().reflection, shiny("illum 3").as_classic().unwrap().reflection),
+        (Rgb::BLACK, Rgb::new(0.5, 0.4, 0.3))
+    );
 }
 
 #[test]
 fn ambient_light_is_a_part_of_the_usual() {
-    let usual = Material::default().ambient;
+    let usual = Material::default().as_classic().unwrap().ambient;
     for all in ["", "Ka 0.5 0.5 0.5", "Ka 1 1 1", "Ka 0 0 0"] {
-        assert!((material(&format!("Kd 0.5 0.5 0.5\n{all}")).ambient - usual).abs() < 1e-7, "{all}");
+        assert!(
+            (material(&format!("Kd 0.5 0.5 0.5\n{all}")).as_classic().unwrap().ambient - usual).abs() < 1e-7,
+            "{all}"
+        );
     }
-    assert!((material("Kd 0.5 0.5 0.5\nKa 0.1 0.1 0.1").ambient - 0.2 * usual).abs() < 1e-7);
+    assert!((material("Kd 0.5 0.5 0.5\nKa 0.1 0.1 0.1").as_classic().unwrap().ambient - 0.2 * usual).abs() < 1e-7);
 }
 
 #[test]
 fn surfaces_that_are_not_whole_show_what_is_behind() {
-    assert_eq!(material("d 0.25").transparency, Rgb::gray(0.75));
-    assert_eq!(material("Tr 0.25").transparency, Rgb::gray(0.25));
-    assert_eq!(material("d 1\nTr 1").transparency, Rgb::BLACK, "d counts");
-    assert_eq!(material("d 0.5\nTf 1 0.5 0").transparency, Rgb::new(0.5, 0.25, 0.0));
-    assert_eq!(material("Tf 1 1 1\nillum 2").transparency, Rgb::BLACK);
-    assert_eq!((material("d 0.5\nNi 1.5").ior, material("d 0.5\nNi 1.5\nillum 6").ior), (None, Some(1.5)));
+    assert_eq!(material("d 0.25").as_classic().unwrap().transparency, Rgb::gray(0.75));
+    assert_eq!(material("Tr 0.25").as_classic().unwrap().transparency, Rgb::gray(0.25));
+    assert_eq!(material("d 1\nTr 1").as_classic().unwrap().transparency, Rgb::BLACK, "d counts");
+    assert_eq!(material("d 0.5\nTf 1 0.5 0").as_classic().unwrap().transparency, Rgb::new(0.5, 0.25, 0.0));
+    assert_eq!(material("Tf 1 1 1\nillum 2").as_classic().unwrap().transparency, Rgb::BLACK);
+    assert_eq!(
+        (
+            material("d 0.5\nNi 1.5").as_classic().unwrap().ior,
+            material("d 0.5\nNi 1.5\nillum 6").as_classic().unwrap().ior
+        ),
+        (None, Some(1.5))
+    );
 }
 
 #[test]
 fn glass_refracts_and_reflects() {
     let bent = material("d 0.1\nKs 0.2 0.2 0.2\nNi 1.5\nillum 6");
-    assert_eq!((bent.ior, bent.fresnel, bent.reflection), (Some(1.5), false, Rgb::gray(0.2)));
+    assert_eq!(
+        (bent.as_classic().unwrap().ior, bent.as_classic().unwrap().fresnel, bent.as_classic().unwrap().reflection),
+        (Some(1.5), false, Rgb::gray(0.2))
+    );
     let glass = material("d 0.1\nKs 0.2 0.2 0.2\nNi 1.5\nillum 7");
-    assert_eq!((glass.ior, glass.fresnel, glass.reflection), (Some(1.5), true, Rgb::BLACK));
+    assert_eq!(
+        (glass.as_classic().unwrap().ior, glass.as_classic().unwrap().fresnel, glass.as_classic().unwrap().reflection),
+        (Some(1.5), true, Rgb::BLACK)
+    );
     let filter = material("Tf 0.8 0.8 1\nKs 0.5 0.5 0.5\nNi 1.33\nillum 7");
-    assert_eq!((filter.transparency, filter.ior), (Rgb::new(0.4, 0.4, 0.5), Some(1.33)));
-    assert_eq!(material("d 0.5\nNi 1\nillum 7").ior, None);
-    assert_eq!(material("d 0.5\nNi 99\nillum 7").ior, None);
+    assert_eq!(
+        (filter.as_classic().unwrap().transparency, filter.as_classic().unwrap().ior),
+        (Rgb::new(0.4, 0.4, 0.5), Some(1.33))
+    );
+    assert_eq!(material("d 0.5\nNi 1\nillum 7").as_classic().unwrap().ior, None);
+    assert_eq!(material("d 0.5\nNi 99\nillum 7").as_classic().unwrap().ior, None);
 }
 
 #[test]
 fn surfaces_may_glow() {
-    assert_eq!(material("Ke 3 2 1").emission, Rgb::new(3.0, 2.0, 1.0));
+    assert_eq!(material("Ke 3 2 1").emission, Emission::of(Rgb::new(3.0, 2.0, 1.0)));
 }
 
 #[test]
@@ -104,7 +138,10 @@ fn images_lie_on_the_surface() {
     let files = [("dir/textures/my wood.pfm", PICTURE), ("dir/mask.pfm", PICTURE)];
     let (material, scene, warnings) = read(text, &files);
     assert_eq!(warnings, [""; 0]);
-    assert_eq!((material.color, material.opacity), (Paint::Texture(TextureId(0)), Paint::Texture(TextureId(1))));
+    assert_eq!(
+        (material.as_classic().unwrap().color, material.opacity),
+        (Paint::Texture(TextureId(0)), Paint::Texture(TextureId(1)))
+    );
     let names: Vec<&str> = scene.images.iter().map(|image| image.file.as_str()).collect();
     assert_eq!(names, ["dir/textures/my wood.pfm", "dir/mask.pfm"]);
     let Pattern::Image(color) = &scene.textures[0].pattern else { panic!("an image") };
@@ -125,7 +162,7 @@ fn options_of_images_are_skipped_with_their_arguments() {
     let options =
         "-blendu on -blendv off -cc on -mm 0 1 -t 1 1 -texres 512 -bm 0.5 -imfchan l -type sphere -o 1 -boost 2";
     let (material, scene, warnings) = read(&format!("newmtl m\nmap_Kd {options} a.pfm"), &[("dir/a.pfm", PICTURE)]);
-    assert_eq!((material.color, scene.images.len()), (Paint::Texture(TextureId(0)), 1));
+    assert_eq!((material.as_classic().unwrap().color, scene.images.len()), (Paint::Texture(TextureId(0)), 1));
     assert_eq!(warnings.len(), 10, "{warnings:?}");
 }
 
@@ -158,13 +195,13 @@ fn each_kind_of_statement_that_is_left_out_is_said_once() {
     for (warning, expected) in warnings.iter().zip(expected) {
         assert!(warning.contains(expected), "{warning}, not {expected}");
     }
-    assert_eq!(material.transparency, Rgb::gray(0.5));
+    assert_eq!(material.as_classic().unwrap().transparency, Rgb::gray(0.5));
 }
 
 #[test]
 fn a_name_that_comes_again_is_a_new_material() {
     let (material, _, _) = read("newmtl m\nKd 1 1 1\nKs 1 1 1\nnewmtl m\nKd 0.5 0.5 0.5\n", &[]);
-    assert_eq!((gray(&material), material.specular), (0.5, Rgb::BLACK));
+    assert_eq!((gray(&material), material.as_classic().unwrap().specular), (0.5, Rgb::BLACK));
 }
 
 #[test]

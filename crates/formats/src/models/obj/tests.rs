@@ -131,7 +131,8 @@ fn objects_groups_and_materials_are_parts() {
         mesh_of(&model).parts,
         [part("body", 1, 2, Some(0)), part("lid", 3, 1, Some(1)), part("lid", 4, 1, None)]
     );
-    let colors: Vec<Paint> = model.scene.materials.iter().map(|material| material.color).collect();
+    let colors: Vec<Paint> =
+        model.scene.materials.iter().map(|material| material.as_classic().unwrap().color).collect();
     assert_eq!(colors, [Paint::Color(Rgb::new(0.0, 1.0, 0.0)), Paint::Color(Rgb::new(1.0, 0.0, 0.0))]);
 }
 

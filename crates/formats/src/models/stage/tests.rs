@@ -79,7 +79,7 @@ fn light_comes_from_above_and_is_not_too_much() {
         let towards_key = (-direction).normalize().dot(towards(KEY));
         let is_key = light.name.as_ref().unwrap().starts_with("key");
         assert_eq!(is_key, towards_key >= cos(KEY_HALF_ANGLE.to_radians()) - 1e-12);
-        upwards -= f64::from(light.intensity) * direction.normalize().y;
+        upwards -= f64::from(light.classic_intensity()) * direction.normalize().y;
     }
     // With the ambient light, the ground is bright, but not white.
     assert!((0.5..1.0).contains(&upwards), "{upwards}");

@@ -1,6 +1,6 @@
 //! What frusta and capsules have in common: an axis between two points.
 
-use durer_math::{DVec3, rotation_between};
+use durer_math::{DAffine3, DMat3, DVec3, rotation_between};
 
 /// The way from one point to another.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +31,12 @@ impl Axis {
     /// A point as seen from the base, turned so that the axis is +y: as single cones turn it.
     pub(super) fn upright(&self, point: DVec3) -> DVec3 {
         rotation_between(DVec3::Y, self.up()).transpose() * (point - self.base)
+    }
+
+    /// The map that takes the origin to the base and the y axis to this one, and stretches along the axes before it turns.
+    pub(super) fn frame(&self, stretch: DVec3) -> DAffine3 {
+        let turn = rotation_between(DVec3::Y, self.up());
+        DAffine3::from_mat3_translation(turn * DMat3::from_diagonal(stretch), self.base)
     }
 
     /// The largest coordinate of either end.

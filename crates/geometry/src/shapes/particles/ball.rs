@@ -3,12 +3,13 @@
 use super::{LARGE_LEAVES, Particle, wide};
 use crate::Slender;
 use crate::bvh::build::Leaves;
+use crate::sample::{Piece, Shows};
 use crate::shapes::Shape;
 use crate::shapes::sphere::{Sphere, outward};
 use crate::simd::blocks::{Block, Hits, WideRay};
 use crate::simd::boxes::{Box32, round_down, round_up};
 use crate::simd::spheres;
-use durer_math::{DVec2, DVec3};
+use durer_math::{DAffine3, DMat3, DVec2, DVec3};
 use fearless_simd::Simd;
 
 /// A sphere where it is.
@@ -63,6 +64,11 @@ impl Particle<{ spheres::NUMBERS }> for Ball {
 
     fn contains(&self, point: DVec3) -> bool {
         (point - self.center).length_squared() < self.radius * self.radius
+    }
+
+    fn piece(&self, map: &DAffine3) -> Option<Piece> {
+        let place = DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::splat(self.radius)), self.center);
+        Some(Piece::ball(&(*map * place), Shows::OneSide))
     }
 
     /// As for the single sphere, and that the point is rounded where it is.

@@ -5,12 +5,13 @@ use super::ball::Ball;
 use super::{Particle, SMALL_LEAVES, wide};
 use crate::Slender;
 use crate::bvh::build::Leaves;
+use crate::sample::Piece;
 use crate::shapes::sphere::longitude;
 use crate::simd::blocks::{Block, Hits, WideRay};
 use crate::simd::boxes::Box32;
 use crate::simd::capsules;
 use durer_math::functions::asin;
-use durer_math::{DVec2, DVec3};
+use durer_math::{DAffine3, DVec2, DVec3};
 use fearless_simd::Simd;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -71,6 +72,11 @@ impl Particle<{ capsules::NUMBERS }> for Capsule {
 
     fn contains(&self, point: DVec3) -> bool {
         (point - self.nearest(point)).length_squared() < self.radius * self.radius
+    }
+
+    fn piece(&self, map: &DAffine3) -> Option<Piece> {
+        let place = self.axis.frame(DVec3::splat(self.radius));
+        Some(Piece::capsule(&(*map * place), self.axis.length() / self.radius))
     }
 
     /// As for frusta, whose reasoning holds here.

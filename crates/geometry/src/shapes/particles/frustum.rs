@@ -4,11 +4,12 @@ use super::axial::Axis;
 use super::{Particle, SMALL_LEAVES, wide};
 use crate::Slender;
 use crate::bvh::build::Leaves;
+use crate::sample::{Piece, Shows};
 use crate::shapes::sphere::longitude;
 use crate::simd::blocks::{Block, Hits, WideRay};
 use crate::simd::boxes::{Box32, round_down, round_up};
 use crate::simd::frusta;
-use durer_math::{DVec2, DVec3};
+use durer_math::{DAffine3, DVec2, DVec3};
 use fearless_simd::Simd;
 
 /// A frustum where it is. Face 0 is the side, 1 the base, 2 the top; open ones have a side only, which rays meet from both
@@ -108,6 +109,13 @@ impl<const OPEN: bool> Particle<{ frusta::NUMBERS }> for Frustum<OPEN> {
         let (height, away) = self.axis.split(point);
         let radius = self.radii[0] + self.slope() * height;
         !OPEN && height > 0.0 && height < self.axis.length() && away.length_squared() < radius * radius
+    }
+
+    fn piece(&self, map: &DAffine3) -> Option<Piece> {
+        let (length, widest) = (self.axis.length(), self.widest());
+        let place = self.axis.frame(DVec3::new(widest, length, widest));
+        let radii = self.radii.map(|radius| radius / widest);
+        (length > 0.0 && widest > 0.0).then(|| Piece::frustum(&(*map * place), radii, OPEN, Shows::OneSide))
     }
 
     /// With u = 2⁻⁵³: putting a point on the surface leaves it within 10 u of the size and 3.5 u of the coordinates; a ray's

@@ -28,9 +28,9 @@ fn lights() {
     let model = read(&lit(json!({ "type": "point", "intensity": 10, "color": [1, 0.5, 0] })));
     let light = &model.scene.lights[0];
     assert_eq!((light.name.as_deref(), light.color), (Some("lamp"), Rgb::new(1.0, 0.5, 0.0)));
-    assert!((f64::from(light.intensity) - 10.0 / std::f64::consts::PI).abs() < 1e-6);
+    assert!((f64::from(light.classic_intensity()) - 10.0 / std::f64::consts::PI).abs() < 1e-6);
     let position = DVec3::new(1.0, 2.0, 3.0);
-    assert_eq!(light.kind, LightKind::Point { position, falloff: Falloff::InverseSquare });
+    assert_eq!(light.kind, LightKind::Point { position, falloff: Falloff::InverseSquare, radius: 0.0 });
 
     let model = read(&lit(json!({ "type": "directional" })));
     let LightKind::Directional { direction } = model.scene.lights[0].kind else { panic!() };
@@ -38,7 +38,7 @@ fn lights() {
 
     let cone = json!({ "innerConeAngle": 0.25, "outerConeAngle": 0.5 });
     let model = read(&lit(json!({ "type": "spot", "spot": cone, "range": 7 })));
-    let LightKind::Spot { position: at, target, half_angle_degrees, inner_half_angle_degrees, falloff } =
+    let LightKind::Spot { position: at, target, half_angle_degrees, inner_half_angle_degrees, falloff, .. } =
         model.scene.lights[0].kind
     else {
         panic!()

@@ -1,10 +1,12 @@
 //! Materials and textures.
 
+use super::super::super::Model;
 use super::build::File;
 use super::{fault, only_mesh, read};
 use durer_math::{DVec3, Rgb};
 use durer_scene::{
-    Channels, Encoding, Filter, ImageTexture, Material, Paint, Pattern, Scene, Texture, TextureId, Wrap,
+    Attenuation, Channels, Classic, Emission, Encoding, Filter, ImageTexture, Material, MaterialKind, Paint, Pattern,
+    Principled, Relief, Scene, Texture, TextureId, Wrap,
 };
 use serde_json::{Value, json};
 
@@ -34,77 +36,90 @@ fn near(a: Rgb, b: Rgb) -> bool {
     (a - b).map(f32::abs).max_component() < 1e-5
 }
 
-#[test]
-fn matte_plastic() {
-    let pbr = json!({ "baseColorFactor": [0.5, 0.25, 1, 1], "metallicFactor": 0, "roughnessFactor": 1 });
-    let material = material_of(json!({ "pbrMetallicRoughness": pbr }));
-    assert_eq!(material.color, Paint::Color(Rgb::new(0.5, 0.25, 1.0)));
-    assert_eq!((material.diffuse, material.ambient, material.shininess), (1.0, 0.2, 1.0));
-    // 0.04 · (1 + 2) / 2
-    assert!(near(material.specular, Rgb::gray(0.06)), "{:?}", material.specular);
-    assert_eq!((material.reflection, material.transparency, material.emission), Default::default());
-    assert_eq!(material.opacity, Paint::Color(Rgb::WHITE));
+/// What a material says as glTF's own.
+#[track_caller]
+fn principled(material: &Material) -> &Principled {
+    let MaterialKind::Principled(principled) = &material.kind else { panic!("{material:?}") };
+    principled
+}
+
+fn gray(amount: f32) -> Paint {
+    Paint::Color(Rgb::gray(amount))
 }
 
 #[test]
-fn glossy_plastic() {
-    let pbr = json!({ "metallicFactor": 0, "roughnessFactor": 0.2 });
-    let material = material_of(json!({ "pbrMetallicRoughness": pbr }));
-    // α = 0.04: (1/0.0016 - 1)/2
-    assert!((material.shininess - 312.0).abs() < 0.01, "{}", material.shininess);
-    assert!(near(material.specular, Rgb::WHITE));
-    assert!(near(material.reflection, Rgb::gray(0.04 * 0.64)));
-    assert_eq!(material.diffuse, 1.0);
+fn defaults_are_those_of_the_format() {
+    let plain = material_of(json!({}));
+    let white =
+        Principled { base_color: gray(1.0), metallic: gray(1.0), roughness: gray(1.0), ..Principled::default() };
+    assert_eq!(principled(&plain), &Principled { thin: true, ..white });
+    assert_eq!((plain.emission, plain.opacity, plain.relief), (Emission::NONE, gray(1.0), None));
 }
 
 #[test]
-fn metal() {
-    let gold = json!({ "baseColorFactor": [1, 0.75, 0.5, 1], "roughnessFactor": 0.5 });
-    let material = material_of(json!({ "pbrMetallicRoughness": gold }));
-    assert!(near(material.reflection, Rgb::new(0.25, 0.1875, 0.125)));
-    assert!(near(material.specular, Rgb::new(0.5, 0.375, 0.25)));
-    assert!((material.diffuse - 0.75).abs() < 1e-6 && (material.ambient - 0.15).abs() < 1e-6);
-    let mirror = material_of(json!({ "pbrMetallicRoughness": { "roughnessFactor": 0 } }));
-    assert_eq!((mirror.reflection, mirror.diffuse, mirror.shininess), (Rgb::WHITE, 0.0, 10_000.0));
+fn numbers_come_as_they_are() {
+    let material = material_of(json!({
+        "pbrMetallicRoughness": { "baseColorFactor": [0.5, 0.25, 1, 1], "metallicFactor": 0.25, "roughnessFactor": 0.5 },
+        "extensions": {
+            "KHR_materials_ior": { "ior": 1.25 },
+            "KHR_materials_specular": { "specularFactor": 0.5, "specularColorFactor": [1, 2, 100] },
+            "KHR_materials_transmission": { "transmissionFactor": 0.75 },
+            "KHR_materials_volume":
+                { "thicknessFactor": 1, "attenuationColor": [0.5, 1, 0], "attenuationDistance": 2 },
+            "KHR_materials_clearcoat": { "clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.125 },
+            "KHR_materials_sheen": { "sheenColorFactor": [0.5, 0, 1], "sheenRoughnessFactor": 0.375 },
+            "KHR_materials_anisotropy":
+                { "anisotropyStrength": 0.625, "anisotropyRotation": -std::f64::consts::FRAC_PI_2 },
+        },
+    }));
+    let expected = Principled {
+        base_color: Paint::Color(Rgb::new(0.5, 0.25, 1.0)),
+        metallic: gray(0.25),
+        roughness: gray(0.5),
+        ior: 1.25,
+        specular: gray(0.5),
+        specular_color: Paint::Color(Rgb::new(1.0, 2.0, 100.0)),
+        transmission: gray(0.75),
+        thin: false,
+        attenuation: Some(Attenuation { color: Rgb::new(0.5, 1.0, 1e-4), distance: 2.0 }),
+        clearcoat: gray(1.0),
+        clearcoat_roughness: gray(0.125),
+        sheen_color: Paint::Color(Rgb::new(0.5, 0.0, 1.0)),
+        sheen_roughness: gray(0.375),
+        anisotropy: gray(0.625),
+        // A quarter turn back is three quarters on.
+        anisotropy_rotation: gray(0.75),
+    };
+    assert_eq!(principled(&material), &expected);
 }
 
 #[test]
-fn glass_with_a_thickness_refracts() {
-    let pbr = json!({ "metallicFactor": 0, "roughnessFactor": 0 });
-    let volume = json!({ "thicknessFactor": 1, "attenuationColor": [0.5, 1, 0], "attenuationDistance": 2 });
-    let glass = material_of(json!({ "pbrMetallicRoughness": pbr, "extensions": {
-        "KHR_materials_transmission": { "transmissionFactor": 1 },
-        "KHR_materials_ior": { "ior": 1.25 },
-        "KHR_materials_volume": volume,
-    }}));
-    assert_eq!((glass.transparency, glass.ior, glass.fresnel), (Rgb::WHITE, Some(1.25), true));
-    assert_eq!((glass.diffuse, glass.reflection), (0.0, Rgb::BLACK));
-    let attenuation = glass.attenuation.unwrap();
-    assert_eq!((attenuation.color, attenuation.distance), (Rgb::new(0.5, 1.0, 1e-4), 2.0));
+fn without_thickness_there_is_no_inside() {
+    let volume = |thickness: f64| {
+        let volume = json!({ "thicknessFactor": thickness, "attenuationColor": [0.5, 1, 1], "attenuationDistance": 2 });
+        let material = material_of(json!({ "extensions": {
+            "KHR_materials_transmission": { "transmissionFactor": 1 },
+            "KHR_materials_volume": volume,
+        }}));
+        (principled(&material).thin, principled(&material).attenuation.is_some())
+    };
+    assert_eq!((volume(0.0), volume(0.5)), ((true, false), (false, true)));
+}
+
+/// What is mirrored straight back, as far as a scene can say it.
+fn straight_back(ior: f64) -> f32 {
+    let material = material_of(json!({ "extensions": { "KHR_materials_ior": { "ior": ior } } }));
+    let principled = principled(&material);
+    let Paint::Color(color) = principled.specular_color else { panic!("{principled:?}") };
+    let root = (principled.ior - 1.0) / (principled.ior + 1.0);
+    (root * root) as f32 * color.r
 }
 
 #[test]
-fn glass_without_thickness_is_a_sheet() {
-    let pbr = json!({ "metallicFactor": 0, "roughnessFactor": 0, "baseColorFactor": [1, 0.5, 0.5, 1] });
-    let sheet = material_of(json!({ "pbrMetallicRoughness": pbr, "extensions": {
-        "KHR_materials_transmission": { "transmissionFactor": 0.5 },
-    }}));
-    assert!(near(sheet.transparency, Rgb::new(0.5, 0.25, 0.25)));
-    assert_eq!((sheet.ior, sheet.fresnel, sheet.attenuation), (None, false, None));
-    assert!(near(sheet.reflection, Rgb::gray(0.04)));
-    // What is left of the surface itself is to be half: 0.5 / (1 - 0.303).
-    assert!((sheet.diffuse - 0.717_46).abs() < 1e-4, "{}", sheet.diffuse);
-}
-
-#[test]
-fn a_different_reflectance() {
-    let pbr = json!({ "metallicFactor": 0, "roughnessFactor": 0 });
-    let specular = json!({ "specularFactor": 0.5, "specularColorFactor": [1, 2, 100] });
-    let material = material_of(json!({ "pbrMetallicRoughness": pbr, "extensions": {
-        "KHR_materials_ior": { "ior": 3 },
-        "KHR_materials_specular": specular,
-    }}));
-    assert!(near(material.reflection, Rgb::new(0.125, 0.25, 0.5)));
+fn any_index_of_refraction_mirrors_as_much_as_it_should() {
+    for (ior, expected) in [(1.0, 0.0), (1.5, 0.04), (10.0, 81.0 / 121.0), (19.0, 0.81), (0.0, 1.0)] {
+        assert!((straight_back(ior) - expected).abs() < 1e-5, "{ior}: {}", straight_back(ior));
+    }
 }
 
 #[test]
@@ -115,8 +130,10 @@ fn specular_and_glossiness() {
         "glossinessFactor": 0.5,
     });
     let material = material_of(json!({ "extensions": { "KHR_materials_pbrSpecularGlossiness": extension } }));
-    assert_eq!((material.color, material.diffuse), (Paint::Color(Rgb::gray(0.5)), 1.0));
-    assert!(near(material.reflection, Rgb::new(0.25, 0.125, 0.0625)));
+    let found = principled(&material);
+    assert_eq!((found.base_color, found.metallic, found.roughness), (gray(0.5), gray(0.0), gray(0.5)));
+    let Paint::Color(color) = found.specular_color else { panic!("{found:?}") };
+    assert!(near(color * 0.04, Rgb::new(1.0, 0.5, 0.25)));
 }
 
 #[test]
@@ -124,8 +141,8 @@ fn unlit_materials_show_their_color() {
     let pbr = json!({ "baseColorFactor": [0.5, 0.25, 1, 1] });
     let unlit = material_of(json!({ "pbrMetallicRoughness": pbr, "extensions": { "KHR_materials_unlit": {} } }));
     let expected =
-        Material { color: Paint::Color(Rgb::new(0.5, 0.25, 1.0)), ambient: 1.0, diffuse: 0.0, ..Material::default() };
-    assert_eq!(unlit, expected);
+        Classic { color: Paint::Color(Rgb::new(0.5, 0.25, 1.0)), ambient: 1.0, diffuse: 0.0, ..Classic::default() };
+    assert_eq!(unlit, Material::of(MaterialKind::Classic(expected)));
 }
 
 #[test]
@@ -134,30 +151,75 @@ fn emission() {
         "emissiveFactor": [1, 0.5, 0],
         "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 8 } },
     }));
-    assert_eq!(material.emission, Rgb::new(8.0, 4.0, 0.0));
+    let color = Paint::Color(Rgb::new(1.0, 0.5, 0.0));
+    assert_eq!(material.emission, Emission { color, strength: 8.0, ..Emission::NONE });
 }
 
 #[test]
-fn textures_of_which_only_the_mean_is_used() {
+fn every_texture_is_read_from_its_channels() {
     let mut file = File::new();
-    let glow = file.texture(2, &[[255, 0, 0, 255], [255, 255, 0, 255]]);
-    // Roughness in green, metal in blue.
-    let rough = file.texture(2, &[[0, 51, 255, 255], [0, 153, 255, 255]]);
+    let image = file.texture(2, &[[0, 51, 255, 255], [0, 153, 255, 128]]);
+    let texture = || json!({ "index": image });
     file.show_triangle(json!({
-        "pbrMetallicRoughness": { "metallicRoughnessTexture": { "index": rough }, "metallicFactor": 0.5 },
+        "pbrMetallicRoughness": { "metallicRoughnessTexture": texture(), "metallicFactor": 0.5 },
         "emissiveFactor": [1, 1, 1],
-        "emissiveTexture": { "index": glow },
-        "normalTexture": { "index": glow },
-        "occlusionTexture": { "index": glow },
+        "emissiveTexture": texture(),
+        "normalTexture": { "index": image, "scale": 0.5 },
+        "extensions": {
+            "KHR_materials_specular": { "specularTexture": texture(), "specularColorTexture": texture() },
+            "KHR_materials_transmission": { "transmissionTexture": texture(), "transmissionFactor": 1 },
+            "KHR_materials_clearcoat": {
+                "clearcoatFactor": 1, "clearcoatTexture": texture(),
+                "clearcoatRoughnessFactor": 0.25, "clearcoatRoughnessTexture": texture(),
+            },
+            "KHR_materials_sheen": {
+                "sheenColorFactor": [1, 1, 1], "sheenColorTexture": texture(),
+                "sheenRoughnessFactor": 1, "sheenRoughnessTexture": texture(),
+            },
+        },
     }));
-    let model = read(&file);
-    let material = &model.scene.materials[0];
-    assert!(near(material.emission, Rgb::new(1.0, 0.5, 0.0)));
-    // Roughness (0.2 + 0.6)/2, metal 0.5: 1 - 0.5 · 0.6²
-    assert!((material.diffuse - 0.82).abs() < 1e-6, "{}", material.diffuse);
-    assert!(model.scene.images.is_empty() && model.scene.textures.is_empty());
-    assert_eq!(model.warnings.len(), 4, "{:?}", model.warnings);
-    assert!(model.warnings.iter().all(|warning| warning.ends_with("(materials[0])")));
+    let Model { scene, warnings } = read(&file);
+    assert_eq!((scene.images.len(), warnings.len()), (1, 0), "{warnings:?}");
+    let material = &scene.materials[0];
+    let shown = |paint| {
+        let (_, image) = texture_of(&scene, paint);
+        (image.channels, image.encoding, image.tint)
+    };
+    let number = |channels, tint| (channels, Encoding::Linear, Rgb::gray(tint));
+    let found = principled(material);
+    assert_eq!(shown(found.metallic), number(Channels::Blue, 0.5));
+    assert_eq!(shown(found.roughness), number(Channels::Green, 1.0));
+    assert_eq!(shown(found.specular), number(Channels::Alpha, 1.0));
+    assert_eq!(shown(found.transmission), number(Channels::Red, 1.0));
+    assert_eq!(shown(found.clearcoat), number(Channels::Red, 1.0));
+    assert_eq!(shown(found.clearcoat_roughness), number(Channels::Green, 0.25));
+    assert_eq!(shown(found.sheen_roughness), number(Channels::Alpha, 1.0));
+    for color in [found.specular_color, found.sheen_color, material.emission.color] {
+        assert_eq!(shown(color), (Channels::Color, Encoding::Srgb, Rgb::WHITE));
+    }
+    let Some(Relief::NormalMap(map)) = material.relief else { panic!("{:?}", material.relief) };
+    assert_eq!((shown(map.texture), map.strength), (number(Channels::Color, 1.0), 0.5));
+}
+
+#[test]
+fn what_is_not_used_is_said() {
+    let mut file = File::new();
+    let image = file.texture(1, &[[0, 51, 255, 255]]);
+    let texture = || json!({ "index": image });
+    file.show_triangle(json!({
+        "occlusionTexture": texture(),
+        "emissiveFactor": [1, 1, 1],
+        "emissiveTexture": texture(),
+        "normalTexture": { "index": image, "texCoord": 1 },
+        "extensions": {
+            "KHR_materials_volume": { "thicknessFactor": 1, "thicknessTexture": texture() },
+            "KHR_materials_clearcoat": { "clearcoatFactor": 1, "clearcoatNormalTexture": texture() },
+            "KHR_materials_anisotropy": { "anisotropyStrength": 1, "anisotropyTexture": texture() },
+        },
+    }));
+    let warnings = read(&file).warnings;
+    assert_eq!(warnings.len(), 5, "{warnings:?}");
+    assert!(warnings.iter().all(|warning| warning.ends_with("(materials[0])")), "{warnings:?}");
 }
 
 #[test]
@@ -170,14 +232,13 @@ fn base_color_textures() {
     let pbr = json!({ "baseColorFactor": [1, 0.5, 0.5, 0.5], "baseColorTexture": { "index": texture } });
     file.show_triangle(json!({ "pbrMetallicRoughness": pbr }));
     let model = read(&file);
-    let (texture, image) = texture_of(&model.scene, model.scene.materials[0].color);
+    let (texture, image) = texture_of(&model.scene, principled(&model.scene.materials[0]).base_color);
     assert_eq!((image.wrap, image.filter, image.encoding), (Wrap::Clamp, Filter::Nearest, Encoding::Srgb));
     assert_eq!((image.tint, image.channels), (Rgb::new(1.0, 0.5, 0.5), Channels::Color));
     assert!(texture.transform.steps.is_empty());
     assert_eq!(model.scene.images[0].file, "model.gltf#images[0]");
     // Opaque, whatever alpha says.
     assert_eq!(model.scene.materials[0].opacity, Paint::Color(Rgb::WHITE));
-    assert_eq!(model.scene.materials[0].transparency, Rgb::BLACK);
     assert!(model.warnings.is_empty());
 }
 
@@ -213,7 +274,7 @@ fn texture_transforms() {
         let texture = json!({ "index": texture, "extensions": { "KHR_texture_transform": transform } });
         file.show_triangle(json!({ "pbrMetallicRoughness": { "baseColorTexture": texture } }));
         let scene = read(&file).scene;
-        texture_of(&scene, scene.materials[0].color).0.clone()
+        texture_of(&scene, principled(&scene.materials[0]).base_color).0.clone()
     };
     let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs() < 1e-9 && (a[1] - b[1]).abs() < 1e-9;
     let moved = with(json!({ "offset": [0.25, 0.5], "scale": [2, 4] }));
@@ -245,16 +306,15 @@ fn with_alpha(mode: &str, factor: f32, alpha: u8) -> (File, Scene) {
 fn blended_alpha() {
     let pbr = json!({ "baseColorFactor": [1, 1, 1, 0.25] });
     let plain = material_of(json!({ "pbrMetallicRoughness": pbr, "alphaMode": "BLEND" }));
-    assert_eq!((plain.transparency, plain.opacity), (Rgb::gray(0.75), Paint::Color(Rgb::WHITE)));
+    assert_eq!(plain.opacity, gray(0.25));
 
     let (_, scene) = with_alpha("BLEND", 0.5, 100);
-    assert_eq!(scene.materials[0].transparency, Rgb::BLACK);
     let (_, image) = texture_of(&scene, scene.materials[0].opacity);
     assert_eq!((image.channels, image.tint, image.image.0), (Channels::Alpha, Rgb::gray(0.5), 0));
 
-    // An image without alpha needs no opacity.
+    // An image without alpha leaves the factor alone.
     let (_, scene) = with_alpha("BLEND", 0.5, 255);
-    assert_eq!((scene.textures.len(), scene.materials[0].transparency), (1, Rgb::gray(0.5)));
+    assert_eq!((scene.textures.len(), scene.materials[0].opacity), (1, gray(0.5)));
 }
 
 #[test]
@@ -295,6 +355,6 @@ fn images_that_cannot_be_used() {
     assert_eq!(fault(&remote), "images[0]: `http:` addresses are not followed");
     let compressed = with(&|file| file.json["textures"][0] = json!({}));
     let model = read(&compressed);
-    assert_eq!(model.scene.materials[0].color, Paint::Color(Rgb::WHITE));
+    assert_eq!(principled(&model.scene.materials[0]).base_color, Paint::Color(Rgb::WHITE));
     assert!(model.warnings[0].starts_with("textures are left out that have no PNG or JPEG image"));
 }

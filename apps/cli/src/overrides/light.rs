@@ -1,0 +1,119 @@
+//! What is computed, how much of it is sampled, and how light becomes a picture, in place of what the scene says.
+
+use crate::commands::develop::{exposure, tone_mappings};
+use clap::Args;
+use durer::imaging::ToneMapping;
+use durer::scene::{Integrator, Picture, RenderSettings};
+
+/// Settings of light that win over those of the scene file.
+#[derive(Args, Debug, Default)]
+#[command(next_help_heading = "Instead of what the scene says")]
+pub(crate) struct Light {
+    /// What is computed: `whitted`, `path[:DEPTH[,CLAMP]]`, `ambient_occlusion[:DISTANCE]`, `normals`, `depth` or `uv`
+    #[arg(long, value_name = "WHAT", value_parser = integrator)]
+    integrator: Option<Integrator>,
+
+    /// Samples a pixel where light is sampled at random, at most if there is a noise or time to reach
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000), allow_negative_numbers = true)]
+    samples: Option<u32>,
+
+    /// Takes samples until the error of each part of the picture is below this part of its brightness, such as 0.02
+    #[arg(long, value_name = "PART", allow_negative_numbers = true)]
+    noise: Option<f32>,
+
+    /// Begins no samples after this many seconds
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    time: Option<f64>,
+
+    /// Chooses the noise that is left: other numbers, other noise
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    seed: Option<u32>,
+
+    /// Shadow rays of `whitted` to each light that has an area; with 0, what glows lights nothing
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=4096), allow_negative_numbers = true)]
+    light_samples: Option<u32>,
+
+    /// Makes a PNG or JPEG brighter by a factor of 2 for each 1
+    #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]
+    exposure: Option<f32>,
+
+    /// How light above 1 is brought into a PNG or JPEG
+    #[arg(long, value_name = "HOW", value_parser = tone_mappings())]
+    tone_mapping: Option<String>,
+}
+
+impl Light {
+    pub(super) fn change_render(&self, render: &mut RenderSettings) {
+        render.integrator = self.integrator.unwrap_or(render.integrator);
+        render.samples = self.samples.or(render.samples);
+        render.noise = self.noise.or(render.noise);
+        render.time = self.time.or(render.time);
+        render.seed = self.seed.unwrap_or(render.seed);
+        render.light_samples = self.light_samples.unwrap_or(render.light_samples);
+    }
+
+    pub(super) fn change_picture(&self, picture: &mut Picture) {
+        picture.exposure = self.exposure.unwrap_or(picture.exposure);
+        let word = self.tone_mapping.as_deref();
+        let chosen = ToneMapping::ALL.into_iter().find(|mapping| word == Some(mapping.word()));
+        picture.tone_mapping = chosen.unwrap_or(picture.tone_mapping);
+    }
+
+    /// True if it says what is computed.
+    pub(super) fn chooses_integrator(&self) -> bool {
+        self.integrator.is_some()
+    }
+}
+
+fn integrator(text: &str) -> Result<Integrator, String> {
+    let wrong = || {
+        "expected `whitted`, `path[:DEPTH[,CLAMP]]`, `ambient_occlusion[:DISTANCE]`, `normals`, `depth` or `uv`"
+            .to_owned()
+    };
+    let (word, numbers) = match text.split_once(':') {
+        Some((word, numbers)) => (word, numbers.split(',').collect::<Vec<_>>()),
+        None => (text, Vec::new()),
+    };
+    let Integrator::Path { max_depth, clamp } = Integrator::PATH else { return Err(wrong()) };
+    match (word, &numbers[..]) {
+        ("whitted", []) => Ok(Integrator::Whitted),
+        ("path", []) => Ok(Integrator::Path { max_depth, clamp }),
+        ("path", [depth]) => Ok(Integrator::Path { max_depth: depth.parse().map_err(|_| wrong())?, clamp }),
+        ("path", [depth, clamp]) => Ok(Integrator::Path {
+            max_depth: depth.parse().map_err(|_| wrong())?,
+            clamp: Some(clamp.parse().map_err(|_| wrong())?),
+        }),
+        ("ambient_occlusion" | "ambient-occlusion", []) => Ok(Integrator::AmbientOcclusion { distance: None }),
+        ("ambient_occlusion" | "ambient-occlusion", [distance]) => {
+            Ok(Integrator::AmbientOcclusion { distance: Some(distance.parse().map_err(|_| wrong())?) })
+        }
+        ("normals", []) => Ok(Integrator::Normals),
+        ("depth", []) => Ok(Integrator::Depth),
+        ("uv", []) => Ok(Integrator::Uv),
+        _ => Err(wrong()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn integrators_are_read_as_scene_files_have_them() {
+        let of = |word: &str| {
+            let text = format!("render: {{integrator: {word}}}");
+            let loaded = durer::load_str(&text, "test", &durer::NoAssets, &durer::Limits::default());
+            loaded.expect("fine").scene.scene().render.integrator
+        };
+        for word in ["whitted", "path", "ambient_occlusion", "normals", "depth", "uv"] {
+            assert_eq!(Ok(of(word)), integrator(word));
+        }
+        assert_eq!(integrator("path:32"), Ok(Integrator::Path { max_depth: 32, clamp: None }));
+        assert_eq!(integrator("path:32,10"), Ok(Integrator::Path { max_depth: 32, clamp: Some(10.0) }));
+        let near = Integrator::AmbientOcclusion { distance: Some(0.5) };
+        assert_eq!(integrator("ambient_occlusion:0.5"), Ok(near));
+        for wrong in ["", "paths", "path:", "path:x", "path:1,2,3", "uv:1", "whitted:3"] {
+            assert!(integrator(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! Light as it is: path tracing compared with closed forms, and with what others found.
+//!
+//! Whole scenes go through the public interface, as users' scenes do.
+
+#![allow(clippy::disallowed_methods, reason = "expected values come from the platform, not from what is tested")]
+
+mod area_lights;
+mod cornell;
+mod furnaces;
+mod many_ways;
+mod support;

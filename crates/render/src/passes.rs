@@ -1,0 +1,233 @@
+//! Integrators that take samples: passes over the picture, each with some more samples of every pixel, so that all of it can
+//! be looked at from the beginning; and when it is enough.
+//!
+//! Which samples are taken depends on nothing but the sums of those that are there. Only a limit of time depends on the
+//! machine: it ends after some pass, and the film then says how many samples that was.
+
+mod direct;
+mod noise;
+
+use crate::compile::CompiledScene;
+use crate::film::{Film, PixelSums, Region, SampleRange, SampledTile, TILE};
+use crate::filter_sampling::FilterSampling;
+use crate::holes::Known;
+use crate::integrators::Integrator;
+use crate::sampler::{Purpose, Sampler};
+use crate::schedule::{Progress, in_tiles};
+use arrayvec::ArrayVec;
+use direct::Direct;
+use durer_geometry::{LANES, Packet, Ray};
+use durer_math::{DVec2, Rgb};
+use noise::Noise;
+
+/// When it is enough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Goal {
+    /// The samples of a pixel, at most.
+    pub(crate) samples: SampleRange,
+    /// The noise that is let pass: `None` takes all samples of all pixels.
+    pub(crate) noise: Option<f32>,
+    /// Seconds.
+    pub(crate) time: Option<f64>,
+}
+
+/// Takes samples until it is enough, or `progress` stops it. The film is one of samples.
+pub(crate) fn render_samples<I: Integrator>(
+    (scene, integrator): (&CompiledScene, &I),
+    goal: Goal,
+    film: &mut Film,
+    progress: &dyn Progress,
+) {
+    let filter = FilterSampling::new(scene.settings.filter);
+    let direct = film.sums().is_some_and(|sums| !sums.direct.is_empty());
+    let sampling = Sampling { scene, integrator, filter, first: goal.samples.start, direct };
+    let mut clock = Clock { limit: goal.time, begun: None };
+    while !film.is_complete() {
+        let Some(pass) = next_pass(scene, film, goal, &mut clock, progress) else {
+            film.finish_samples();
+            progress.finished(film.done(), film.done());
+            progress.advanced(film);
+            return;
+        };
+        let tiles = film.region().cells(TILE).filter(|&tile| pass.wants(tile)).collect();
+        let render = |tile| sampling.tile(tile, &pass);
+        in_tiles(tiles, progress, film, render, |film, tile| {
+            film.add(&tile);
+            progress.finished(film.done(), pass.expected.max(film.done()));
+            progress.advanced(film);
+        });
+        if progress.stop() {
+            return;
+        }
+    }
+}
+
+/// How many samples of each pixel there are to be when a pass is over.
+struct Pass {
+    region: Region,
+    /// How many there are, row by row ...
+    from: Vec<u32>,
+    /// ... and are to be.
+    to: Vec<u32>,
+    /// Samples that the whole picture will have in the end, as far as can be told.
+    expected: u64,
+}
+
+impl Pass {
+    /// True if some pixel of a tile wants samples.
+    fn wants(&self, tile: Region) -> bool {
+        tile.pixel_places().any(|(x, y)| {
+            let pixel = self.region.index_of(x, y);
+            self.from[pixel] < self.to[pixel]
+        })
+    }
+}
+
+/// The pass after those that the film has seen; `None` if it is enough.
+fn next_pass(
+    scene: &CompiledScene,
+    film: &Film,
+    goal: Goal,
+    clock: &mut Clock,
+    progress: &dyn Progress,
+) -> Option<Pass> {
+    let (region, sums) = (film.region(), film.sums()?);
+    let from = sums.taken.clone();
+    let most = goal.samples.count();
+    let least = from.iter().copied().min()?;
+    // A pass that was cut short is finished first, so that all pixels have as many samples.
+    let was_cut_short = goal.noise.is_none() && from.iter().any(|&taken| taken != least);
+    let most_in_time = clock.most_samples(progress.elapsed(), least);
+    let (to, expected) = match goal.noise {
+        Some(target) => {
+            if most_in_time <= least {
+                return None;
+            }
+            Noise::new(scene, target).goals(region, sums, most)
+        }
+        None => {
+            let next = after(least).min(most);
+            let next = if was_cut_short { next } else { next.min(most_in_time) };
+            (vec![next; from.len()], region.pixels() * u64::from(most.min(most_in_time).max(next)))
+        }
+    };
+    let pass = Pass { region, from, to, expected };
+    let wants_any = pass.from.iter().zip(&pass.to).any(|(from, to)| from < to);
+    wants_any.then_some(pass)
+}
+
+/// How many samples a pixel has after the pass that begins with so many: twice as many at first, then 32 more, and in long
+/// renders a fourth more, for looking at the whole takes time, too.
+fn after(samples: u32) -> u32 {
+    let more = match samples {
+        0 => 1,
+        1..32 => samples,
+        _ => (samples / 4 / 32 * 32).max(32),
+    };
+    samples.saturating_add(more)
+}
+
+/// How fast it goes.
+struct Clock {
+    limit: Option<f64>,
+    /// The time when the first pass of this run began, and the samples that a pixel had then.
+    begun: Option<(f64, u32)>,
+}
+
+impl Clock {
+    /// How many samples a pixel can have before time is up, if it has so many now.
+    fn most_samples(&mut self, now: Option<f64>, samples: u32) -> u32 {
+        let (Some(limit), Some(now)) = (self.limit, now) else { return u32::MAX };
+        let (then, before) = *self.begun.get_or_insert((now, samples));
+        let gained = samples.saturating_sub(before);
+        match (gained, now < limit) {
+            // One sample is the least that there is.
+            (0, true) => samples.saturating_add(1),
+            (0, false) => samples.max(1),
+            (_, false) => samples,
+            (gained, true) => {
+                let more = (limit - now) / (now - then).max(1e-9) * f64::from(gained);
+                samples.saturating_add(more.min(f64::from(u32::MAX)) as u32)
+            }
+        }
+    }
+}
+
+/// How samples are taken.
+struct Sampling<'a, I> {
+    scene: &'a CompiledScene,
+    integrator: &'a I,
+    filter: FilterSampling,
+    /// The number of a pixel's first sample.
+    first: u32,
+    /// Direct light is known apart.
+    direct: bool,
+}
+
+/// A sample before it is traced.
+struct Begun {
+    sampler: Sampler,
+    at: DVec2,
+    is_negative: bool,
+    ray: Ray,
+}
+
+impl<I: Integrator> Sampling<'_, I> {
+    fn tile(&self, region: Region, pass: &Pass) -> SampledTile {
+        let mut tile =
+            SampledTile { region, pixels: Vec::with_capacity(region.pixels() as usize), account: Default::default() };
+        for (x, y) in region.pixel_places() {
+            let pixel = pass.region.index_of(x, y);
+            let mut sums = PixelSums::default();
+            let mut samples = pass.from[pixel]..pass.to[pixel];
+            while !samples.is_empty() {
+                let some: ArrayVec<u32, LANES> = samples.by_ref().take(LANES).collect();
+                self.take((x, y), &some, &mut sums, &mut tile);
+            }
+            tile.pixels.push(sums);
+        }
+        tile
+    }
+
+    /// Some samples of one pixel: their first rays go nearly the same way.
+    fn take(&self, pixel: (u32, u32), samples: &[u32], sums: &mut PixelSums, tile: &mut SampledTile) {
+        let scene = self.scene;
+        let begun: ArrayVec<Begun, LANES> = samples.iter().map(|&number| self.begin(pixel, number)).collect();
+        let trace = |begun: &Begun, known: Known<'_>, sums: &mut PixelSums, tile: &mut SampledTile| {
+            let Begun { sampler, at, is_negative, ray } = begun;
+            let rays = &mut tile.account.rays;
+            let (color, direct) = if self.direct {
+                let mut apart = Direct::new(rays);
+                (self.integrator.radiance(scene, ray, known, sampler, &mut apart), apart.light())
+            } else {
+                (self.integrator.radiance(scene, ray, known, sampler, rays), Rgb::BLACK)
+            };
+            if sums.add(color, direct, *is_negative).is_err() {
+                tile.account.bad_sample(*at);
+            }
+        };
+        match (&scene.eye_vantage, &begun[..]) {
+            (Some(vantage), _) => begun.iter().for_each(|begun| trace(begun, Known::Vantage(vantage), sums, tile)),
+            (None, [one]) => trace(one, Known::Nothing, sums, tile),
+            (None, _) => {
+                let rays: ArrayVec<Ray, LANES> = begun.iter().map(|begun| begun.ray).collect();
+                let hits = scene.world.closest_hits(&Packet::new(&rays), f64::INFINITY, u32::MAX);
+                begun.iter().zip(hits).for_each(|(begun, hit)| trace(begun, Known::Hit(hit), sums, tile));
+            }
+        }
+    }
+
+    fn begin(&self, pixel: (u32, u32), number: u32) -> Begun {
+        let scene = self.scene;
+        let sampler = Sampler::new(scene.settings.seed, pixel, self.first + number);
+        let (at, is_negative) = self.filter.place(pixel, sampler.two(0, Purpose::Pixel));
+        let ray = match scene.camera.has_lens() {
+            true => scene.camera.ray_through_lens(at, sampler.two(0, Purpose::Lens)),
+            false => scene.camera.ray(at),
+        };
+        Begun { sampler, at, is_negative, ray }
+    }
+}
+
+#[cfg(test)]
+mod tests;

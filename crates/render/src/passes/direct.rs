@@ -1,0 +1,51 @@
+//! Light that met one surface at most on its way to the eye, apart from the rest.
+
+use crate::observer::{NotTraced, Observer, RayCounts, RayKind, Source};
+use durer_geometry::Ray;
+use durer_math::Rgb;
+
+/// Counts rays, and adds up direct light.
+pub(super) struct Direct<'a> {
+    rays: &'a mut RayCounts,
+    /// Of the last segment of the path.
+    depth: u32,
+    light: Rgb,
+}
+
+impl<'a> Direct<'a> {
+    pub(super) fn new(rays: &'a mut RayCounts) -> Direct<'a> {
+        Direct { rays, depth: 1, light: Rgb::BLACK }
+    }
+
+    /// The direct light of the sample.
+    pub(super) fn light(&self) -> Rgb {
+        self.light
+    }
+}
+
+impl Observer for Direct<'_> {
+    fn ray_begins(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb) {
+        self.depth = depth;
+        self.rays.ray_begins(kind, depth, ray, weight);
+    }
+
+    fn shadow_ray(&mut self) {
+        self.rays.shadow_ray();
+    }
+
+    fn contribution(&mut self, source: Source, amount: Rgb) {
+        // The segment of depth 2 comes from the first surface: what gives light by itself at its end met that one alone.
+        let deepest = match source {
+            Source::Emission | Source::Background => 2,
+            Source::Fog | Source::Ambient | Source::Diffuse(_) | Source::Specular(_) | Source::Light(_) => 1,
+            Source::Shown => 1,
+        };
+        if self.depth <= deepest {
+            self.light += amount;
+        }
+    }
+
+    fn not_traced(&mut self, kind: RayKind, weight: Rgb, why: NotTraced) {
+        self.rays.not_traced(kind, weight, why);
+    }
+}
