@@ -139,11 +139,7 @@ impl Seen {
     #[inline]
     pub fn surface(&self, lane: usize) -> Surface {
         let lane = lane % LANES;
-        Surface {
-            point: lane_of(&self.point, lane),
-            normal: lane_of(&self.normal, lane),
-            offset: self.offset[lane],
-        }
+        Surface { point: lane_of(&self.point, lane), normal: lane_of(&self.normal, lane), offset: self.offset[lane] }
     }
 }
 
@@ -291,9 +287,7 @@ impl World {
         seen.hit = found & packet.all();
         for lane in 0..LANES {
             seen.hits[lane] = match seen.hit >> lane & 1 {
-                1 => {
-                    Some(Hit { crossing: Crossing { t: seen.t[lane], part: 0 }, primitive: whole(each[lane]) as u32 })
-                }
+                1 => Some(Hit { crossing: Crossing { t: seen.t[lane], part: 0 }, primitive: whole(each[lane]) as u32 }),
                 _ => None,
             };
         }

@@ -77,13 +77,7 @@ impl FirstHits {
         self.points = points;
     }
 
-    fn look_ahead(
-        &mut self,
-        scene: &CompiledScene,
-        antialias: &impl Antialias,
-        part: Region,
-        points: &mut Vec<DVec2>,
-    ) {
+    fn look_ahead(&mut self, scene: &CompiledScene, antialias: &impl Antialias, part: Region, points: &mut Vec<DVec2>) {
         points.clear();
         for (x, y) in part.pixel_places() {
             antialias.certain(DVec2::new(f64::from(x), f64::from(y)), points);

@@ -117,7 +117,8 @@ mod tests {
         let t_max = 4.0;
         let mut met = 0;
         for level in SimdLevel::available() {
-            for (primitive, packet) in flats().iter().flat_map(|flat| packets().take(100).map(move |rays| (flat, rays))) {
+            for (primitive, packet) in flats().iter().flat_map(|flat| packets().take(100).map(move |rays| (flat, rays)))
+            {
                 let (mut ts, mut points, mut offsets) = ([0.0; LANES], Columns::default(), [0.0; LANES]);
                 let which = dispatch!(level.level(), simd => {
                     let rays = (Lanes::load(simd, &packet.origin), Lanes::load(simd, &packet.direction));
