@@ -10,7 +10,7 @@ use crate::interrupt::Interrupt;
 use crate::numbers::short;
 use crate::progress::{Bar, Phase, Reached, Show};
 use crate::{output, provenance, target};
-use durer::imaging::{EncodeOptions, Image, Layers};
+use durer::imaging::{EncodeOptions, Layers};
 use durer::{
     CheckedScene, Checkpoint, Film, FilmLayer, Origin, PictureFile, Progress, Region, RenderError, RenderOptions,
     SceneHash, SeenFirst, Sources, WriteError, film_layers, read_checkpoint, seen_first, temporary_beside,
@@ -119,7 +119,7 @@ impl Job<'_> {
         }
         let rays_before = film.as_ref().map_or(0, |film| film.rays().total());
         let wanted = layers.as_deref().unwrap_or_default();
-        let Traced { film, seen, alpha, seconds: [build, render] } =
+        let Traced { mut film, seen, alpha, seconds: [build, render] } =
             self.trace(&scene, (film, region, wanted), &interrupt, saver.as_ref(), show)?;
         let report =
             Report::new(arguments.scene.path.clone(), path, format, &film, picture.exposure).after(rays_before);
@@ -132,7 +132,7 @@ impl Job<'_> {
             (None, Some(saver)) => What::Film(saver),
             (None, None) => return Err(Failure::usage("films need names of files that are UTF-8")),
         };
-        self.finish(&film, Outcome { file, what, saver: saver.as_ref(), show }, report)
+        self.finish(&mut film, Outcome { file, what, saver: saver.as_ref(), show }, report)
     }
 
     /// The part that is rendered, if it lies within the picture.
@@ -241,7 +241,7 @@ impl Job<'_> {
     }
 
     /// Writes what there is, and says so.
-    fn finish(&self, film: &Film, outcome: Outcome<'_>, mut report: Report) -> Result<Exit, Failure> {
+    fn finish(&self, film: &mut Film, outcome: Outcome<'_>, mut report: Report) -> Result<Exit, Failure> {
         let Outcome { file, what, saver, show } = outcome;
         let (finished, total) = (film.done(), (film.done() as f64 / share_done(film).max(1e-9)).round() as u64);
         let reached = |remaining| Some(Reached { finished, total, remaining });
@@ -307,16 +307,14 @@ impl Job<'_> {
 }
 
 /// Writes the film, or what is made of it; gives the number of bytes.
-fn write(file: PictureFile, film: &Film, what: What<'_>) -> Result<usize, WriteError> {
+fn write(file: PictureFile, film: &mut Film, what: What<'_>) -> Result<usize, WriteError> {
     match what {
         What::Picture(mut options, layers, alpha) => {
             options.metadata.extend(film.sums().map(provenance::of_samples));
-            let Region { width, height, .. } = film.region();
-            let image = || Image { width, height, pixels: film.pixels().to_vec() };
             match (layers, alpha) {
                 (Some(layers), _) => file.write_layers(layers, &options),
-                (None, Some(alpha)) => file.write_with_alpha(&image(), &alpha, &options),
-                (None, None) => file.write(&image(), &options),
+                (None, Some(alpha)) => film.with_picture(|image| file.write_with_alpha(image, &alpha, &options)),
+                (None, None) => film.with_picture(|image| file.write(image, &options)),
             }
         }
         What::Film(saver) => file.write_bytes(&saver.bytes(film)),
