@@ -84,7 +84,8 @@ mod tests {
     use fearless_simd::dispatch;
 
     fn flats() -> Vec<Primitive> {
-        let tilted = DAffine3::from_scale(DVec3::new(2.0, 0.7, -1.3)) * DAffine3::from_rotation_x(0.4);
+        let tilted =
+            DAffine3::from_scale(DVec3::new(2.0, 0.7, -1.3)) * DAffine3::from_mat3(durer_math::rotation(DVec3::X, 0.4));
         let up = DVec3::new(0.2, 1.0, -0.3);
         vec![
             Primitive::plane(DVec3::new(0.1, -0.5, 0.0), DVec3::Y, &DAffine3::IDENTITY),

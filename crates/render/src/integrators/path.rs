@@ -261,7 +261,11 @@ impl<O: Observer> Path<'_, O> {
             let part = if light.is_point { 1.0 } else { power_heuristic(light.pdf, pdf) };
             let by_aiming = if light.is_point { f64::INFINITY } else { light.pdf };
             self.observer.weighing(&Weighing { by_surface: pdf, by_aiming, part });
-            let arriving = light.light * visible * ((part / light.pdf) as f32);
+            let mut arriving = light.light * visible * ((part / light.pdf) as f32);
+            // As it is for those who find the same light otherwise. (That of lamps comes undimmed, as under `whitted`.)
+            if let (Some(fog), false) = (&scene.fog, light.is_point) {
+                arriving = arriving * fog.veil(light.distance).visible;
+            }
             self.add(Source::Light(light.lamp), scattered * arriving);
         }
     }
