@@ -2,6 +2,7 @@
 //!
 //! Sees no path, no name and no line number.
 
+mod ahead;
 mod antialias;
 mod background;
 mod bsdf;

@@ -394,13 +394,16 @@ pub(crate) fn in_tiles<G: Send, T: Send>(
 fn render_tile<A: Antialias>(scene: &CompiledScene, region: Region, antialias: &A) -> Tile {
     let mut tile = Tile::new(region);
     let integrator = Sharp::of(scene);
-    let first_hits = FirstHits::find(scene, antialias, region);
-    for (x, y) in region.pixel_places() {
-        let known = first_hits.of_pixel(tile.pixels.len());
-        let pixel = render_pixel(scene, (&integrator, antialias), (x, y), known, &mut tile.account);
-        let color = if pixel.has_bad_samples { without_bad_samples(scene, antialias, (x, y)) } else { pixel.color };
-        tile.pixels.push(color);
-        tile.depths.push(pixel.depth);
+    let mut first_hits = FirstHits::default();
+    for part in FirstHits::parts(scene, region) {
+        first_hits.find(scene, antialias, part);
+        part.pixel_places().enumerate().for_each(|(index, (x, y))| {
+            let known = first_hits.of_pixel(index);
+            let pixel = render_pixel(scene, (&integrator, antialias), (x, y), known, &mut tile.account);
+            let color = if pixel.has_bad_samples { without_bad_samples(scene, antialias, (x, y)) } else { pixel.color };
+            tile.pixels.push(color);
+            tile.depths.push(pixel.depth);
+        });
     }
     tile
 }

@@ -10,7 +10,7 @@ use crate::interrupt::Interrupt;
 use crate::numbers::short;
 use crate::progress::{Bar, Phase, Reached, Show};
 use crate::{output, provenance, target};
-use durer::imaging::{EncodeOptions, Image, Layers};
+use durer::imaging::{EncodeOptions, Layers};
 use durer::{
     CheckedScene, Checkpoint, Film, FilmLayer, Origin, PictureFile, Progress, Region, RenderError, RenderOptions,
     SceneHash, SeenFirst, Sources, WriteError, film_layers, read_checkpoint, seen_first, temporary_beside,
@@ -76,9 +76,14 @@ impl Job<'_> {
         let fingerprint = durer::scene_fingerprint(scene.scene(), &sources);
         let scene = arguments.overrides.apply(scene)?;
         options.metadata = provenance::of_render(fingerprint, scene.scene(), arguments.crop);
+        let (integrator, exr) = (&scene.scene().render.integrator, durer::imaging::FileFormat::Exr);
         let layers = match format {
-            Some(format) => arguments.layers.of_file(format, &scene.scene().render.integrator)?,
-            None => None,
+            Some(format) => arguments.layers.of_file(format, integrator)?,
+            // What a film knows beside the colors goes into the pictures that are made of it.
+            None => arguments.layers.of_file(exr, integrator)?.map(|mut layers| {
+                layers.retain(|layer| layer.is_of_paths());
+                layers
+            }),
         };
         if !scene.scene().render.integrator.takes_samples() && (format.is_none() || arguments.sample_range.is_some()) {
             let integrator = scene.scene().render.integrator.word();
@@ -114,11 +119,12 @@ impl Job<'_> {
         }
         let rays_before = film.as_ref().map_or(0, |film| film.rays().total());
         let wanted = layers.as_deref().unwrap_or_default();
-        let Traced { film, seen, alpha, seconds: [build, render] } =
+        let Traced { mut film, seen, alpha, seconds: [build, render] } =
             self.trace(&scene, (film, region, wanted), &interrupt, saver.as_ref(), show)?;
         let report =
             Report::new(arguments.scene.path.clone(), path, format, &film, picture.exposure).after(rays_before);
         let report = report.with_seconds(Seconds { load, build, render, write: 0.0 }).stopped_by(interrupt.reason());
+        let layers = layers.filter(|_| format.is_some());
         let layers =
             layers.map(|layers| film_layers((&film, alpha.as_deref()), seen.as_ref(), &layers, options.exr_samples));
         let what = match (format, &saver) {
@@ -126,7 +132,7 @@ impl Job<'_> {
             (None, Some(saver)) => What::Film(saver),
             (None, None) => return Err(Failure::usage("films need names of files that are UTF-8")),
         };
-        self.finish(&film, Outcome { file, what, saver: saver.as_ref(), show }, report)
+        self.finish(&mut film, Outcome { file, what, saver: saver.as_ref(), show }, report)
     }
 
     /// The part that is rendered, if it lies within the picture.
@@ -235,7 +241,7 @@ impl Job<'_> {
     }
 
     /// Writes what there is, and says so.
-    fn finish(&self, film: &Film, outcome: Outcome<'_>, mut report: Report) -> Result<Exit, Failure> {
+    fn finish(&self, film: &mut Film, outcome: Outcome<'_>, mut report: Report) -> Result<Exit, Failure> {
         let Outcome { file, what, saver, show } = outcome;
         let (finished, total) = (film.done(), (film.done() as f64 / share_done(film).max(1e-9)).round() as u64);
         let reached = |remaining| Some(Reached { finished, total, remaining });
@@ -301,16 +307,14 @@ impl Job<'_> {
 }
 
 /// Writes the film, or what is made of it; gives the number of bytes.
-fn write(file: PictureFile, film: &Film, what: What<'_>) -> Result<usize, WriteError> {
+fn write(file: PictureFile, film: &mut Film, what: What<'_>) -> Result<usize, WriteError> {
     match what {
         What::Picture(mut options, layers, alpha) => {
             options.metadata.extend(film.sums().map(provenance::of_samples));
-            let Region { width, height, .. } = film.region();
-            let image = || Image { width, height, pixels: film.pixels().to_vec() };
             match (layers, alpha) {
                 (Some(layers), _) => file.write_layers(layers, &options),
-                (None, Some(alpha)) => file.write_with_alpha(&image(), &alpha, &options),
-                (None, None) => file.write(&image(), &options),
+                (None, Some(alpha)) => film.with_picture(|image| file.write_with_alpha(image, &alpha, &options)),
+                (None, None) => film.with_picture(|image| file.write(image, &options)),
             }
         }
         What::Film(saver) => file.write_bytes(&saver.bytes(film)),
