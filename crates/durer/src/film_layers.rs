@@ -242,7 +242,7 @@ mod tests {
         let text = "
             picture: {width: 40, height: 30}
             camera: {position: [0, 0, 5], look_at: [0, 0, 0]}
-            materials: {red: {color: [0.5, 0.25, 0.125]}}
+            materials: {red: {matte: {color: [0.5, 0.25, 0.125]}}}
             objects:
               - sphere: {center: [9, 9, 9], radius: 0.1}
               - box: {min: [-1, -1, -1], max: [1, 1, 0], material: red}";
@@ -268,7 +268,8 @@ mod tests {
             (FilmLayer::MaterialId, "ID", 1.0, 0.0),
         ];
         for (layer, channel, inside, outside) in known {
-            assert_eq!(at(layer, channel, middle), Some(inside), "{layer:?} {channel}");
+            let found = at(layer, channel, middle).unwrap();
+            assert!((found - inside).abs() < 1e-5, "{layer:?} {channel}: {found}, not {inside}");
             assert_eq!(at(layer, channel, corner), Some(outside), "{layer:?} {channel}");
         }
         assert_eq!((seen.coverage[middle], seen.coverage[corner]), (1.0, 0.0));
