@@ -31,6 +31,14 @@ impl Packet {
         packet
     }
 
+    /// The rays from a point in eight directions of unit length, of which the first `count` are wanted.
+    #[inline]
+    pub(crate) fn from_point(point: DVec3, direction: [[f64; LANES]; 3], count: usize) -> Packet {
+        debug_assert!((1..=LANES).contains(&count));
+        let origin = [[point.x; LANES], [point.y; LANES], [point.z; LANES]];
+        Packet { origin, direction, count }
+    }
+
     /// The packet of other rays, one for each.
     #[inline(always)]
     pub(crate) fn map(&self, of: impl Fn(Ray) -> Ray) -> Packet {

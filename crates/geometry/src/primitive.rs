@@ -59,6 +59,7 @@ macro_rules! each_kind {
 /// More surfaces one behind the other than this are not looked at: what light is left then is nothing.
 const MOST_CROSSINGS: u32 = 100_000;
 
+mod flat;
 pub(crate) mod operand;
 mod pieces;
 

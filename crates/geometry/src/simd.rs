@@ -8,6 +8,7 @@ pub(crate) mod blocks;
 pub(crate) mod boxes;
 pub(crate) mod capsules;
 pub(crate) mod frusta;
+pub(crate) mod lanes;
 pub(crate) mod level;
 pub(crate) mod memory;
 pub(crate) mod planes;

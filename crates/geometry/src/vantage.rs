@@ -5,7 +5,9 @@
 //! tested against these only, mostly none. After Haines and Greenberg, "The Light Buffer", IEEE CG&A 6(9), 1986.
 
 use crate::Bounds;
+use crate::simd::lanes::Lanes;
 use durer_math::DVec3;
+use fearless_simd::{Simd, f64x8, prelude::*};
 
 /// Cells along an edge of the cube: a cell is about two degrees wide.
 const CELLS: usize = 48;
@@ -102,7 +104,19 @@ impl Vantage {
     /// many to list.
     #[inline(always)]
     pub(crate) fn candidates(&self, direction: DVec3) -> Option<&[u32]> {
-        let Cell { start, length } = self.cells[cell_of(direction)];
+        self.listed(cell_of(direction))
+    }
+
+    /// The point.
+    #[inline(always)]
+    pub(crate) fn point(&self) -> DVec3 {
+        self.point
+    }
+
+    /// The list of a cell, as [`cells_of`] numbers them.
+    #[inline(always)]
+    pub(crate) fn listed(&self, cell: usize) -> Option<&[u32]> {
+        let Cell { start, length } = self.cells[cell];
         if length > LONGEST_LIST { None } else { self.ids.get(start as usize..(start + length) as usize) }
     }
 }
@@ -198,6 +212,35 @@ fn cell_of(d: DVec3) -> usize {
     (face * CELLS + index(t)) * CELLS + index(s)
 }
 
+/// The cells that eight directions pass through; see [`ROUND`].
+#[inline(always)]
+pub(crate) fn cells_of<S: Simd>(simd: S, d: Lanes<S>) -> f64x8<S> {
+    let (ax, ay, az) = (d.x.abs(), d.y.abs(), d.z.abs());
+    let along_z = az.simd_ge(ax) & az.simd_ge(ay);
+    let along_y = ay.simd_ge(ax);
+    let depth = along_z.select(d.z, along_y.select(d.y, d.x));
+    let (s, t) = (along_z.select(d.x, along_y.select(d.x, d.y)), along_z.select(d.y, d.z));
+    let scale = f64x8::splat(simd, (CELLS / 2) as f64) / depth.abs();
+    let zero = f64x8::splat(simd, 0.0);
+    let positive = depth.simd_gt(zero).select(f64x8::splat(simd, 1.0), zero);
+    let axis = along_z.select(f64x8::splat(simd, 4.0), along_y.select(f64x8::splat(simd, 2.0), zero));
+    let rows = (axis + positive) * CELLS as f64 + whole_index(simd, t * scale);
+    rows * CELLS as f64 + whole_index(simd, s * scale) + ROUND
+}
+
+/// Adding this rounds to a whole number; a sum of whole numbers and this then has them in its lowest bits.
+pub(crate) const ROUND: f64 = (3_u64 << 51) as f64;
+
+/// In which of the cells along an edge numbers from -24 to 24 are, as they are from end to end.
+#[inline(always)]
+fn whole_index<S: Simd>(simd: S, along: f64x8<S>) -> f64x8<S> {
+    let (least, last) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, (CELLS - 1) as f64));
+    let cell = along + ((CELLS / 2) as f64 - 0.5);
+    let cell = cell.simd_gt(least).select(cell, least);
+    let cell = cell.simd_lt(last).select(cell, last);
+    (cell + ROUND) - ROUND
+}
+
 /// Calls `visit` for every cell through which a box may be seen, by interval arithmetic on its projection.
 fn for_each_cell(point: DVec3, bounds: &Bounds, mut visit: impl FnMut(usize)) {
     let (low, high) = ((bounds.min - point).to_array(), (bounds.max - point).to_array());
@@ -238,6 +281,7 @@ fn cells(low: f64, high: f64, near: f64, far: f64) -> Option<std::ops::RangeIncl
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::packet::LANES;
 
     fn random_numbers(seed: u64) -> impl FnMut(f64, f64) -> f64 {
         let mut state = seed;
@@ -261,6 +305,34 @@ mod tests {
                 let inside = bounds.min + bounds.size() * DVec3::new(random(0., 1.), random(0., 1.), random(0., 1.));
                 assert_eq!(vantage.candidates((inside - point).normalize()), Some(&[7][..]), "{point} {bounds:?}");
             }
+        }
+    }
+
+    /// But for directions so near an edge of a cell that single precision decides otherwise.
+    #[test]
+    fn eight_directions_pass_through_the_cells_of_each() {
+        let mut random = random_numbers(3);
+        let mut same = 0;
+        for level in crate::SimdLevel::available() {
+            for case in 0..200 {
+                let mut direction = || DVec3::new(random(-1., 1.), random(-1., 1.), random(-1., 1.));
+                let directions: [DVec3; LANES] = match case {
+                    0 => [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z, DVec3::ZERO, DVec3::ONE],
+                    _ => std::array::from_fn(|_| direction()),
+                };
+                let columns = [0, 1, 2].map(|axis| directions.map(|direction| direction[axis]));
+                let cells: [f64; LANES] = fearless_simd::dispatch!(level.level(), simd => {
+                    cells_of(simd, Lanes::load(simd, &columns)).into()
+                });
+                for (cell, direction) in cells.into_iter().zip(directions) {
+                    let cell = (cell - ROUND) as usize;
+                    assert!(cell < CELL_COUNT);
+                    same += usize::from(cell == cell_of(direction));
+                }
+            }
+            let all = 200 * LANES;
+            assert!(same >= all - 2, "{same} of {all}");
+            same = 0;
         }
     }
 

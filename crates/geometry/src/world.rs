@@ -60,6 +60,12 @@ impl World {
         World { bvh, planes, bounded_ids, bounds, level: plan.simd.level(), primitives }
     }
 
+    /// The instruction set of its searches.
+    #[inline(always)]
+    pub fn simd(&self) -> Level {
+        self.level
+    }
+
     /// The primitives, in the order they were given.
     pub fn primitives(&self) -> &[Primitive] {
         &self.primitives

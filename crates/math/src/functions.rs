@@ -85,13 +85,15 @@ pub fn cos_sin_of_turns(turns: f64) -> (f64, f64) {
 /// Evaluated in double precision, where a Taylor polynomial of degree 7 leaves an error near 3·10⁻⁹.
 #[inline]
 pub fn exp(x: f32) -> f32 {
+    // Computed first and chosen then, so that loops can do several at once.
+    let power = exp2_of(f64::from(x) * std::f64::consts::LOG2_E) as f32;
     if x > 88.8 {
-        return f32::INFINITY;
+        f32::INFINITY
+    } else if x < -87.3 {
+        0.0
+    } else {
+        power
     }
-    if x < -87.3 {
-        return 0.0;
-    }
-    exp2_of(f64::from(x) * std::f64::consts::LOG2_E) as f32
 }
 
 /// `base` to the power `exponent`, in single precision with a relative error below 2⁻²², for `base` ≥ 0.

@@ -4,7 +4,7 @@ mod lens;
 
 use self::lens::Lens;
 pub(crate) use self::lens::concentric_disc;
-use durer_geometry::{Bounds, Ray};
+use durer_geometry::{Bounds, LANES, Packet, Pinhole, Ray, World};
 use durer_math::{DVec2, DVec3, functions::tan};
 use durer_scene as scene;
 
@@ -147,6 +147,19 @@ impl Camera {
         };
         let offset = lens.point(on_lens);
         Ray { origin: start + offset, direction: (in_focus - offset).normalize() }
+    }
+
+    /// The rays through at most eight points of the picture, if they start in one point.
+    #[inline]
+    pub(crate) fn rays(&self, world: &World, points: &[DVec2]) -> Option<Packet> {
+        let eye = self.eye()?;
+        let (mut across, mut up) = ([0.0; LANES], [0.0; LANES]);
+        for lane in 0..LANES {
+            let at = points[lane.min(points.len() - 1)];
+            (across[lane], up[lane]) = (at.x * self.scale.x - 1.0, 1.0 - at.y * self.scale.y);
+        }
+        let pinhole = Pinhole { eye, forward: self.forward, right: self.right, up: self.up };
+        Some(world.rays_of(&pinhole, &across, &up, points.len()))
     }
 
     /// From the middle of the picture to a point of it, as `right` and `up` are measured.

@@ -256,6 +256,15 @@ impl Film {
         &self.depths
     }
 
+    /// Does something with the picture, in linear light, without a copy of it.
+    pub fn with_picture<T>(&mut self, work: impl FnOnce(&Image) -> T) -> T {
+        let pixels = std::mem::take(&mut self.pixels);
+        let image = Image { width: self.region.width, height: self.region.height, pixels };
+        let done = work(&image);
+        self.pixels = image.pixels;
+        done
+    }
+
     /// The picture, in linear light.
     pub fn develop(self) -> Image {
         Image { width: self.region.width, height: self.region.height, pixels: self.pixels }

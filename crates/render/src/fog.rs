@@ -42,12 +42,47 @@ impl Fog {
     /// The fog on a segment of this length (which may be infinite).
     #[inline]
     pub(crate) fn veil(&self, length: f64) -> Veil {
-        let visible = match self.kind {
-            Kind::Exponential { rate } => exp((length * rate) as f32),
-            Kind::Linear { end, rate } => ((end - length) * rate).clamp(0.0, 1.0) as f32,
-        };
+        self.veil_of(match self.kind {
+            Kind::Exponential { rate } => exponential(rate, length),
+            Kind::Linear { end, rate } => linear(end, rate, length),
+        })
+    }
+
+    /// Its color.
+    pub(crate) fn color(&self) -> Rgb {
+        self.color
+    }
+
+    /// The fog of which it is known what it leaves.
+    #[inline]
+    pub(crate) fn veil_of(&self, visible: f32) -> Veil {
         Veil { visible, color: self.color }
     }
+
+    /// What it leaves on each of some segments. Not inlined: where their number is known the compiler makes no loop of it,
+    /// and only in a loop does several at once.
+    #[inline(never)]
+    pub(crate) fn visible_each(&self, lengths: &[f64], visible: &mut [f32]) {
+        let each = lengths.iter().zip(visible);
+        match self.kind {
+            Kind::Exponential { rate } => {
+                each.for_each(|(&length, visible)| *visible = exponential(rate, length));
+            }
+            Kind::Linear { end, rate } => {
+                each.for_each(|(&length, visible)| *visible = linear(end, rate, length));
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn exponential(rate: f64, length: f64) -> f32 {
+    exp((length * rate) as f32)
+}
+
+#[inline(always)]
+fn linear(end: f64, rate: f64, length: f64) -> f32 {
+    ((end - length) * rate).clamp(0.0, 1.0) as f32
 }
 
 #[cfg(test)]

@@ -97,6 +97,22 @@ impl Light {
         }
     }
 
+    /// What arrives, if that is the same everywhere.
+    pub(crate) fn everywhere(&self) -> Option<Rgb> {
+        match self.kind {
+            Kind::Point { falloff: Falloff::None, .. } | Kind::Directional { .. } => Some(self.power),
+            Kind::Point { .. } | Kind::Spot { .. } => None,
+        }
+    }
+
+    /// For a spot, its axis and the cosine of the angle to it beyond which it gives no light.
+    pub(crate) fn cone(&self) -> Option<(DVec3, f64)> {
+        match self.kind {
+            Kind::Spot { axis, cone, .. } => Some((axis, cone.outer)),
+            Kind::Point { .. } | Kind::Directional { .. } => None,
+        }
+    }
+
     /// The luminance of the irradiance on a surface that faces it; of what weakens with distance, at distance 1.
     pub(crate) fn luminance(&self) -> f64 {
         PI * f64::from(self.power.luminance()).max(0.0)
@@ -106,12 +122,29 @@ impl Light {
     #[inline]
     pub(crate) fn arriving(&self, at: DVec3) -> Option<Arriving> {
         match &self.kind {
-            Kind::Point { ball, falloff } => self.arriving_from(ball.middle, at, *falloff),
-            Kind::Spot { ball, axis, cone, falloff } => {
-                let mut arriving = self.arriving_from(ball.middle, at, *falloff)?;
-                let strength = cone.strength(-arriving.direction.dot(*axis));
-                arriving.light = arriving.light * strength;
-                (strength > 0.0).then_some(arriving)
+            Kind::Point { ball, .. } | Kind::Spot { ball, .. } => {
+                let to_light = ball.middle - at;
+                let squared = to_light.length_squared();
+                let distance = squared.sqrt();
+                self.arriving_along(to_light * (1.0 / distance), distance, squared)
+            }
+            Kind::Directional { .. } => self.arriving_along(DVec3::ZERO, f64::INFINITY, f64::INFINITY),
+        }
+    }
+
+    /// What arrives at a point from which the light is seen in a direction and at a distance, whose square is known.
+    /// Directional lights know their own.
+    #[inline]
+    pub(crate) fn arriving_along(&self, direction: DVec3, distance: f64, squared: f64) -> Option<Arriving> {
+        match &self.kind {
+            Kind::Point { .. } | Kind::Spot { .. } if squared == 0.0 => None,
+            Kind::Point { falloff, .. } => {
+                Some(Arriving { direction, distance, light: self.fallen_off(*falloff, squared) })
+            }
+            Kind::Spot { axis, cone, falloff, .. } => {
+                let strength = cone.strength(-direction.dot(*axis));
+                let light = self.fallen_off(*falloff, squared) * strength;
+                (strength > 0.0).then_some(Arriving { direction, distance, light })
             }
             Kind::Directional { towards } => {
                 Some(Arriving { direction: *towards, distance: f64::INFINITY, light: self.power })
@@ -147,21 +180,14 @@ impl Light {
     }
 
     #[inline]
-    fn arriving_from(&self, position: DVec3, at: DVec3, falloff: Falloff) -> Option<Arriving> {
-        let to_light = position - at;
-        let squared = to_light.length_squared();
-        if squared == 0.0 {
-            return None;
-        }
-        let distance = squared.sqrt();
-        let light = match falloff {
+    fn fallen_off(&self, falloff: Falloff, squared: f64) -> Rgb {
+        match falloff {
             Falloff::None => self.power,
             Falloff::InverseSquare => {
                 let near = self.power * ((1.0 / squared).min(1e24) as f32);
                 near.map(|component| component.min(BRIGHTEST))
             }
-        };
-        Some(Arriving { direction: to_light * (1.0 / distance), distance, light })
+        }
     }
 }
 

@@ -4,9 +4,10 @@ use crate::antialias::{Antialias, Sample, Samples};
 use crate::compile::CompiledScene;
 use crate::eye::begin;
 use crate::film::Account;
+use crate::first_hits::FirstRays;
 use crate::holes::Known;
 use crate::integrators::Integrator;
-use durer_geometry::Hit;
+use crate::sampler::Sampler;
 use durer_math::{DVec2, Rgb};
 
 /// What has become of a pixel.
@@ -18,17 +19,17 @@ pub(crate) struct Pixel {
     pub(crate) has_bad_samples: bool,
 }
 
-/// Renders the pixel at column `x`, row `y`. `first_hits` are those of the first rays that it takes, as many as are known.
+/// Renders the pixel at column `x`, row `y`. `first_rays` are the first that it takes, as many as are known.
 #[inline]
 pub(crate) fn render_pixel<I: Integrator, A: Antialias>(
     scene: &CompiledScene,
     (integrator, antialias): (&I, &A),
     (x, y): (u32, u32),
-    first_hits: &[Option<Hit>],
+    first_rays: FirstRays<'_>,
     account: &mut Account,
 ) -> Pixel {
     let pixel = Pixel { color: Rgb::BLACK, depth: 0, has_bad_samples: false };
-    let mut gathered = Gathered { scene, integrator, account, first_hits, taken: 0, pixel };
+    let mut gathered = Gathered { scene, integrator, account, first_rays, taken: 0, pixel };
     antialias.pixel(DVec2::new(f64::from(x), f64::from(y)), &mut gathered);
     gathered.pixel
 }
@@ -38,19 +39,22 @@ struct Gathered<'a, I> {
     scene: &'a CompiledScene,
     integrator: &'a I,
     account: &'a mut Account,
-    first_hits: &'a [Option<Hit>],
+    first_rays: FirstRays<'a>,
     taken: u32,
     pixel: Pixel,
 }
 
 impl<I: Integrator> Samples for Gathered<'_, I> {
     fn take(&mut self, at: DVec2) -> Sample {
-        let known = match (self.first_hits.get(self.taken as usize), &self.scene.eye_vantage) {
-            (Some(&hit), _) => Known::Hit(hit),
+        let known = match (self.first_rays.known(self.taken as usize), &self.scene.eye_vantage) {
+            (Some(known), _) => known,
             (None, Some(vantage)) => Known::Vantage(vantage),
             (None, None) => Known::Nothing,
         };
-        let (ray, sampler) = begin(self.scene, at);
+        let (ray, sampler) = match known.seen() {
+            Some(seen) => (seen.ray(self.scene, at), Sampler::of_place(self.scene.settings.seed, at)),
+            None => begin(self.scene, at),
+        };
         let mut color = self.integrator.radiance(self.scene, &ray, known, &sampler, &mut self.account.rays);
         if !color.is_finite() {
             self.account.bad_sample(at);

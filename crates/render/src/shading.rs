@@ -10,6 +10,7 @@ use crate::materials::{Material, Side, on_side, reflect};
 use crate::surfaces::Indices;
 use durer_geometry::{Hit, Ray, Surface};
 use durer_math::{DVec3, Rgb, functions::pow_wide};
+use durer_scene::Paint;
 
 pub(crate) use relief::tangents;
 pub(crate) use textured::{Textured, within_one};
@@ -47,7 +48,12 @@ impl<'a> Shading<'a> {
     /// Looks up all about a hit of `ray`.
     #[inline]
     pub(crate) fn at(scene: &'a CompiledScene, ray: &Ray, hit: &Hit) -> Shading<'a> {
-        let surface = scene.world.surface(ray, hit);
+        Shading::of_surface(scene, ray, hit, scene.world.surface(ray, hit))
+    }
+
+    /// The same where the surface is known.
+    #[inline(always)]
+    pub(crate) fn of_surface(scene: &'a CompiledScene, ray: &Ray, hit: &Hit, surface: Surface) -> Shading<'a> {
         let object = &scene.objects[hit.primitive as usize];
         if object.looks.has_details() {
             return Shading::in_detail(scene, ray, hit, &surface);
@@ -108,6 +114,12 @@ impl<'a> Shading<'a> {
             from_outside,
             bounds_medium: object.looks.is_medium,
         }
+    }
+
+    /// True if shading goes by another normal than the surface's.
+    #[inline]
+    pub(crate) fn is_smooth(&self) -> bool {
+        self.smooth.is_some()
     }
 
     /// The unit normal by which light falls and is reflected and refracted, on the side that the ray came from.
@@ -214,6 +226,23 @@ fn smooth_normal(scene: &CompiledScene, surface: &Surface, hit: &Hit, face: DVec
 fn seen_by(normal: DVec3, direction: DVec3) -> Option<DVec3> {
     let away = normal.dot(direction);
     if away < 0.0 { Some(normal) } else { (normal - direction * away).try_normalize() }
+}
+
+/// The color at a hit of a primitive that has no details, of this material.
+#[inline]
+pub(crate) fn color_at(
+    scene: &CompiledScene,
+    hit: &Hit,
+    surface: impl FnOnce() -> Surface,
+    material: &Material,
+) -> Rgb {
+    match material.color {
+        Paint::Color(color) => color,
+        Paint::Texture(_) => {
+            let object = &scene.objects[hit.primitive as usize];
+            scene.textures.color(material.color, &Textured { scene, object, surface: &surface(), hit })
+        }
+    }
 }
 
 /// How much of the surface is there at a hit.

@@ -9,7 +9,7 @@ use durer_math::Rgb;
 
 /// A light that lies in a surface to the last bits is not hidden by it: shadow rays end this much, relatively, before
 /// the light. Forty bits are many times the rounding of a hit and far below anything visible.
-const SHORT_OF_LIGHT: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;
+pub(crate) const SHORT_OF_LIGHT: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;
 
 /// More surfaces on one straight way than this are not looked at.
 pub(crate) const MOST_SURFACES: u32 = 100_000;

@@ -14,6 +14,7 @@ mod emission;
 mod fog;
 mod imports;
 mod lights;
+mod looking_ahead;
 mod menagerie;
 mod meshes;
 mod mirrors;

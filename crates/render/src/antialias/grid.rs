@@ -15,10 +15,10 @@ impl Antialias for Grid {
 
     fn pixel(&self, corner: DVec2, samples: &mut impl Samples) {
         let weight = 1.0 / (self.n * self.n) as f32;
-        for point in self.points(corner) {
+        self.points(corner).for_each(|point| {
             let sample = samples.take(point);
             samples.keep(weight, sample);
-        }
+        });
     }
 }
 

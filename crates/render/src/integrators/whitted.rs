@@ -7,15 +7,16 @@
 mod soft;
 
 use super::Integrator;
+use crate::ahead::SeenAhead;
 use crate::compile::CompiledScene;
-use crate::holes::{Known, meet};
+use crate::holes::{Known, find};
 use crate::materials::refract;
 use crate::media::{Media, Undo};
 use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Source, SurfaceSeen};
 use crate::sampler::Sampler;
 use crate::shading::{Shading, highlight};
 use crate::visibility::visibility;
-use durer_geometry::Ray;
+use durer_geometry::{Ray, Way};
 use durer_math::{DVec3, Rgb};
 
 /// The classic integrator.
@@ -30,6 +31,11 @@ impl Integrator for Whitted {
         sampler: &Sampler,
         observer: &mut O,
     ) -> Rgb {
+        if let Some(sum) = known.seen().and_then(|seen| seen.sum())
+            && observer.sum_is_enough(sum.shadow_rays)
+        {
+            return sum.color;
+        }
         let media = if scene.media_at_eye.is_empty() { Media::default() } else { Media::around(scene, ray) };
         let mut path = Path { scene, sampler, lit: 0, media, sum: Rgb::BLACK, observer };
         path.trace(RayKind::Eye, 1, ray, Rgb::WHITE, known);
@@ -61,18 +67,24 @@ impl<O: Observer> Path<'_, O> {
     /// Adds what arrives along a ray, times its weight.
     fn trace(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb, known: Known<'_>) {
         self.observer.ray_begins(kind, depth, ray, weight);
-        let met = meet(self.scene, ray, known, self.observer);
-        let weight = self.along(met.length, weight);
+        let met = find(self.scene, ray, known, self.observer);
+        let weight = self.along(met.length, weight, known.seen());
         match met.hit {
             None => self.add(Source::Background, weight * self.scene.background.seen(ray.direction)),
             Some(hit) => {
-                let shading = Shading::at(self.scene, &met.ray, &hit);
+                let seen = known.seen();
+                let ray = met.onward.as_ref().unwrap_or(ray);
+                let surface = match &seen {
+                    Some(seen) => seen.surface(),
+                    None => self.scene.world.surface(ray, &hit),
+                };
+                let shading = Shading::of_surface(self.scene, ray, &hit, surface);
                 let Shading { surface, color, opacity, from_outside, .. } = shading;
                 let (length, normal) = (met.length, shading.normal());
                 self.observer.surface(&SurfaceSeen { hit, length, surface, normal, color, opacity, from_outside });
                 let there = opacity.map_or(weight, |opacity| weight * opacity);
                 if opacity.is_none_or(|opacity| !opacity.is_black()) {
-                    self.shade(&shading, there);
+                    self.shade(&shading, there, seen.filter(|_| !shading.is_smooth()));
                     self.go_on(&shading, depth, there);
                 }
                 if let Some(opacity) = opacity {
@@ -84,10 +96,13 @@ impl<O: Observer> Path<'_, O> {
     }
 
     /// What the segment does to the light that comes along it; gives the weight of what is at its far end.
-    fn along(&mut self, length: f64, weight: Rgb) -> Rgb {
+    fn along(&mut self, length: f64, weight: Rgb, seen: Option<SeenAhead<'_>>) -> Rgb {
         let mut weight = weight;
         if let Some(fog) = &self.scene.fog {
-            let veil = fog.veil(length);
+            let veil = match seen {
+                Some(seen) => fog.veil_of(seen.visible_through_fog()),
+                None => fog.veil(length),
+            };
             self.add(Source::Fog, weight * veil.color * (1.0 - veil.visible));
             weight = weight * veil.visible;
         }
@@ -99,7 +114,7 @@ impl<O: Observer> Path<'_, O> {
 
     /// What the surface gives off, and ambient and direct light that it gives back.
     #[inline(always)]
-    fn shade(&mut self, shading: &Shading<'_>, weight: Rgb) {
+    fn shade(&mut self, shading: &Shading<'_>, weight: Rgb, seen: Option<SeenAhead<'_>>) {
         let material = shading.material;
         if !shading.emission.is_black() {
             self.add(Source::Emission, weight * shading.emission);
@@ -112,28 +127,38 @@ impl<O: Observer> Path<'_, O> {
         self.add(Source::Ambient, given_back * self.scene.ambient * material.ambient);
         // Lit points lie off the surface like the origins of all rays, so that shadow rays end exactly in the light.
         let point = shading.origin_back();
+        let mut sights = seen.iter().flat_map(SeenAhead::sights);
         for (index, light) in self.scene.lights.iter().enumerate() {
+            let sight = sights.next().flatten();
             if light.radius() > 0.0 && self.scene.settings.light_samples > 0 {
                 self.shade_by_ball(shading, weight, index);
                 continue;
             }
-            let Some(arriving) = light.arriving(point) else {
+            let arriving = match &sight {
+                Some(sight) => light.arriving_along(sight.direction, sight.distance, sight.squared_distance),
+                None => light.arriving(point),
+            };
+            let Some(arriving) = arriving else {
                 let (cosine, visibility) = (0.0, Rgb::BLACK);
                 self.observer.light(&LightSeen { index, distance: None, cosine, visibility });
                 continue;
             };
-            let cosine = shading.cosine(arriving.direction);
+            let (cosine, way) = match &sight {
+                Some(sight) => (sight.cosine, sight.way),
+                None => (shading.cosine(arriving.direction), Way::Unknown),
+            };
             let mut visible = Rgb::BLACK;
             if cosine > 0.0 {
                 self.observer.shadow_ray();
-                let ray = Ray { origin: point, direction: arriving.direction };
-                visible = visibility(
-                    self.scene,
-                    &self.media,
-                    &ray,
-                    arriving.distance,
-                    self.scene.light_vantages[index].as_ref(),
-                );
+                visible = match way {
+                    Way::Open => Rgb::WHITE,
+                    Way::Shut => Rgb::BLACK,
+                    Way::Unknown => {
+                        let ray = Ray { origin: point, direction: arriving.direction };
+                        let vantage = self.scene.light_vantages[index].as_ref();
+                        visibility(self.scene, &self.media, &ray, arriving.distance, vantage)
+                    }
+                };
             }
             let distance = Some(arriving.distance);
             self.observer.light(&LightSeen { index, distance, cosine, visibility: visible });
@@ -156,6 +181,9 @@ impl<O: Observer> Path<'_, O> {
     #[inline(always)]
     fn go_on(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb) {
         let material = shading.material;
+        if material.reflection.is_black() && !material.is_clear() {
+            return;
+        }
         let behind = weight * material.transparency;
         let boundary = self.boundary(shading);
         // What cannot get through comes from the mirrored direction, like what a mirror adds: one ray serves both.
