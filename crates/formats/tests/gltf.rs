@@ -32,7 +32,7 @@ fn stage() -> Value {
         "materials": [{
             "name": "cloth",
             "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 }, "metallicFactor": 0 },
-            "normalTexture": { "index": 0 },
+            "occlusionTexture": { "index": 0 },
         }],
         "textures": [{ "source": 0 }],
         "images": [{ "uri": "cloth%20red.pfm" }],
@@ -97,7 +97,8 @@ fn a_scene_imports_all_that_a_file_has() {
     assert_eq!(camera.projection, Projection::Orthographic { height: 3.0 });
 
     let [warning] = &loaded.warnings.list[..] else { panic!("{}", loaded.warnings) };
-    let message = "`models/stage.gltf`: normal textures are not used (materials[0])";
+    let message =
+        "`models/stage.gltf`: occlusion textures are not used: where light does not come is computed (materials[0])";
     assert_eq!((warning.message.as_str(), warning.line), (message, 2));
     assert!(to_yaml(scene).contains("file: models/stage.gltf"));
 }

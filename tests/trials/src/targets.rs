@@ -143,11 +143,19 @@ pub fn picture(scene: &CheckedScene) -> Result<Image, String> {
             return Err(format!("{} samples are not finite, the first at {}", film.bad_samples(), sample.at));
         }
         let image = film.develop();
+        // What is sampled at random is explained sample by sample, and not summed as films do.
+        if scene.scene().render.integrator.takes_samples() {
+            return Ok(image);
+        }
         let (x, y) = (image.width / 2, image.height / 3);
         let explained = durer::explain(&compiled, x, y).map(|explained| explained.color);
         match explained == Some(image.pixel(x, y)) {
             true => Ok(image),
-            false => Err(format!("pixel {x},{y} is {:?}, but is explained as {explained:?}", image.pixel(x, y))),
+            false => {
+                let integrator = scene.scene().render.integrator.word();
+                let shown = image.pixel(x, y);
+                Err(format!("{integrator}: pixel {x},{y} is {shown:?}, but is explained as {explained:?}"))
+            }
         }
     });
     let image = rendered.map_err(|error| error.to_string())??;

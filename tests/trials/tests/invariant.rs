@@ -7,7 +7,7 @@
 
 use durer::imaging::Image;
 use durer::math::{DVec3, Rgb};
-use durer::scene::{Antialias, Import, Integrator, Light, Object, ObjectKind, Scene};
+use durer::scene::{Antialias, Import, Integrator, Light, LightKind, Object, ObjectKind, Scene};
 use durer_trials::scenes::{Temper, maps, scene};
 use durer_trials::{Dice, picture};
 
@@ -25,6 +25,12 @@ fn sample(seed: u64) -> Scene {
     // Chance is not continuous; and relief is made of small differences, of which rounding is a large part.
     scene.render.integrator = Integrator::Whitted;
     scene.materials.iter_mut().for_each(|material| material.relief = None);
+    scene.render.light_samples = 0;
+    for light in &mut scene.lights {
+        if let LightKind::Point { radius, .. } | LightKind::Spot { radius, .. } = &mut light.kind {
+            *radius = 0.0;
+        }
+    }
     scene.render.min_weight = 0.0;
     (scene.picture.width, scene.picture.height) = (16, 16);
     without_imported_lights(&mut scene.objects);
