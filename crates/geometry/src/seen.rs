@@ -285,18 +285,18 @@ impl World {
         let each: [f64; LANES] = ids.into();
         seen.t = nearest.into();
         seen.hit = found & packet.all();
-        for lane in 0..LANES {
+        for (lane, &number) in each.iter().enumerate() {
             seen.hits[lane] = match seen.hit >> lane & 1 {
-                1 => Some(Hit { crossing: Crossing { t: seen.t[lane], part: 0 }, primitive: whole(each[lane]) as u32 }),
+                1 => Some(Hit { crossing: Crossing { t: seen.t[lane], part: 0 }, primitive: whole(number) as u32 }),
                 _ => None,
             };
         }
         if !curved.is_empty() || lost != 0 {
             self.see_curved(packet, &curved, lost, seen);
             let mut each = each;
-            for lane in 0..LANES {
-                if let Some(hit) = seen.hits[lane] {
-                    each[lane] = ROUND + f64::from(hit.primitive);
+            for (number, hit) in each.iter_mut().zip(seen.hits) {
+                if let Some(hit) = hit {
+                    *number = ROUND + f64::from(hit.primitive);
                 }
             }
             ids = each.simd_into(simd);
