@@ -1,6 +1,6 @@
 //! The layers of a film file: the picture, and beside it what is known of each pixel.
 
-use durer_imaging::{BEAUTY, ExrSamples, Layer, Layers, Samples};
+use durer_imaging::{BEAUTY, Channel, ExrSamples, Layer, Layers, Samples};
 use durer_math::Rgb;
 use durer_render::{Film, Region, SeenFirst, Sums};
 use durer_scene::Integrator;
@@ -112,7 +112,12 @@ impl FilmLayer {
     /// The most bytes that it takes in a file for each pixel, if nothing can be compressed; colors are in this precision.
     fn bytes(self, colors: ExrSamples) -> u64 {
         match self {
-            FilmLayer::Beauty | FilmLayer::Albedo | FilmLayer::Direct | FilmLayer::Indirect => match colors {
+            // With alpha.
+            FilmLayer::Beauty => match colors {
+                ExrSamples::Half => 8,
+                ExrSamples::Float => 16,
+            },
+            FilmLayer::Albedo | FilmLayer::Direct | FilmLayer::Indirect => match colors {
                 ExrSamples::Half => 6,
                 ExrSamples::Float => 12,
             },
@@ -152,13 +157,24 @@ enum Source {
 /// those that take no samples know nothing of them.
 ///
 /// Light and albedo are in the precision for colors, ids and counts are whole numbers; depth, places, coordinates and variance
-/// are in single precision, normals in half.
-pub fn film_layers(film: &Film, seen: Option<&SeenFirst>, layers: &[FilmLayer], colors: ExrSamples) -> Layers {
+/// are in single precision, normals in half. The beauty gets an alpha if there is one, a number for each pixel (see
+/// [`coverage`](crate::coverage)).
+pub fn film_layers(
+    (film, alpha): (&Film, Option<&[f32]>),
+    seen: Option<&SeenFirst>,
+    layers: &[FilmLayer],
+    colors: ExrSamples,
+) -> Layers {
     let Region { width, height, .. } = film.region();
     let seen = seen.filter(|seen| seen.region == film.region());
     let direct = film.sums().and_then(direct_light);
     let layer = |layer: &FilmLayer| match layer.source() {
-        Source::Picture => Some(Layer::of_colors(layer.name(), film.pixels(), colors)),
+        Source::Picture => {
+            let mut beauty = Layer::of_colors(layer.name(), film.pixels(), colors);
+            let alpha = alpha.map(|alpha| Samples::of(alpha.iter().copied(), colors));
+            beauty.channels.extend(alpha.map(|samples| Channel { name: "A".to_owned(), samples }));
+            Some(beauty)
+        }
         Source::SeenFirst => of_seen(*layer, seen?, colors),
         Source::Paths => of_paths(*layer, film.pixels(), direct.as_ref()?, colors),
         Source::Sums => of_sums(*layer, film.sums()?),
@@ -235,7 +251,7 @@ mod tests {
         let options = crate::RenderOptions::default();
         let film = crate::render(&scene, &options, &()).unwrap();
         let seen = crate::seen_first(&scene, &options, &()).unwrap();
-        let layers = film_layers(&film, Some(&seen), &FilmLayer::ALL, ExrSamples::Float);
+        let layers = film_layers((&film, None), Some(&seen), &FilmLayer::ALL, ExrSamples::Float);
         assert_eq!(layers.layers.len(), 8, "there are no samples");
         let (middle, corner) = (15 * 40 + 20, 0);
         let at = |layer: FilmLayer, channel: &str, pixel: usize| {
@@ -261,11 +277,11 @@ mod tests {
         assert_eq!(at(FilmLayer::Beauty, "G", middle), Some(film.pixels()[middle].g));
         let share = seen.coverage.iter().filter(|&&part| part > 0.0 && part < 1.0).count();
         assert!(share > 20, "edges are partly covered: {share}");
-        let without = film_layers(&film, None, &FilmLayer::ALL, ExrSamples::Half);
+        let without = film_layers((&film, None), None, &FilmLayer::ALL, ExrSamples::Half);
         assert_eq!(without.layers.len(), 1);
         let most = FilmLayer::most_bytes(&FilmLayer::ALL, ExrSamples::Float, 40, 30);
         let bytes = encode_layers(layers, &EncodeOptions::new(FileFormat::Exr)).unwrap().len() as u64;
-        assert!(bytes <= most && most < 40 * 30 * 98 + 30_000, "{bytes} of {most}");
+        assert!(bytes <= most && most < 40 * 30 * 102 + 30_000, "{bytes} of {most}");
     }
 
     #[test]
@@ -281,7 +297,7 @@ mod tests {
         let film = crate::render(&scene, &options, &()).unwrap();
         let wanted =
             [FilmLayer::Beauty, FilmLayer::Direct, FilmLayer::Indirect, FilmLayer::Variance, FilmLayer::Samples];
-        let layers = film_layers(&film, None, &wanted, ExrSamples::Float);
+        let layers = film_layers((&film, None), None, &wanted, ExrSamples::Float);
         let at = |layer: FilmLayer, channel: &str, pixel: usize| {
             layers.get(layer.name()).and_then(|layer| layer.channel(channel)).map(|samples| samples.get(pixel)).unwrap()
         };

@@ -35,8 +35,8 @@ pub use durer_render::{
     BadSample, Bounds, CompiledScene, Contribution, Element, Film, FilmParts, GeometryMemory, HeatMap, HitExplanation,
     HoleExplanation, LightExplanation, MergeError, NotTraced, Part, PixelExplanation, Progress, RayCounts,
     RayExplanation, RayKind, Region, RenderError, RenderOptions, SampleExplanation, SampleRange, Scattering, SeenFirst,
-    SimdLevel, Source, Sums, Weighing, compile, compile_for, explain, heatmap, memory_needed, render, render_on,
-    seen_first, with_threads,
+    SimdLevel, Source, Sums, Weighing, compile, compile_for, coverage, explain, heatmap, memory_needed, render,
+    render_on, seen_first, with_threads,
 };
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};

@@ -93,6 +93,11 @@ impl Bsdf {
         }
     }
 
+    /// True if there is but one way in which it scatters light: [`Bsdf::sample`] chooses none.
+    pub(crate) fn has_one_lobe(&self) -> bool {
+        matches!(self, Bsdf::Diffuse(_) | Bsdf::OrenNayar(_) | Bsdf::Mirror(_) | Bsdf::Clear(_))
+    }
+
     /// True if light from behind the surface may be found by aiming at it.
     pub(crate) fn spreads_through(&self) -> bool {
         match self {

@@ -12,6 +12,7 @@ use crate::background::Background;
 use crate::camera::Camera;
 use crate::emitters::Emitters;
 use crate::fog::Fog;
+use crate::integrators::cutout::Shown;
 use crate::lights::Light;
 use crate::materials::Material;
 use crate::surfaces::Scattering;
@@ -56,6 +57,8 @@ pub struct CompiledScene {
     pub(crate) ambient: Rgb,
     pub(crate) fog: Option<Fog>,
     pub(crate) picture: Picture,
+    /// How much of it the eye is shown.
+    pub(crate) shown: Shown,
     pub(crate) settings: RenderSettings,
     /// Primitives filled with a medium that the eye's rays may start inside of.
     pub(crate) media_at_eye: Vec<u32>,
@@ -133,6 +136,7 @@ pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
         ambient: scene.ambient,
         fog: scene.fog.as_ref().map(Fog::compile),
         picture: scene.picture,
+        shown: Shown::Everything,
         settings: scene.render,
     };
     if looks_for_light(&scene.render) {
@@ -199,6 +203,12 @@ fn vantages(lights: &[Light], world: &World) -> Vec<Option<Vantage>> {
 }
 
 impl CompiledScene {
+    /// Leaves out the background where the eye sees it at first hand, not in mirrors, nor what it lights: for pictures with
+    /// alpha, which [`coverage`](crate::coverage) gives.
+    pub fn leave_out_background(&mut self) {
+        self.shown = Shown::Things;
+    }
+
     /// A box around all shapes but the infinite planes.
     pub fn bounds(&self) -> Bounds {
         self.world.bounds()

@@ -59,6 +59,8 @@ pub(crate) struct Emitters {
     /// The irradiance of each of them and those before it.
     far_irradiance: Vec<f64>,
     sky: Option<Sky>,
+    /// True if there is but one emitter.
+    is_one: bool,
 }
 
 /// The three kinds: what is in a place, lamps that are not, and the background.
@@ -94,7 +96,13 @@ impl Emitters {
         }
         let tree = LightTree::build(items, shapes.len() + near_lamps.len());
         let sky = Sky::new(&scene.background);
-        Emitters { shapes, near_lamps, tree, far_lamps, far_irradiance, sky }
+        let is_one = tree.len() + far_lamps.len() + usize::from(sky.is_some()) == 1;
+        Emitters { shapes, near_lamps, tree, far_lamps, far_irradiance, sky, is_one }
+    }
+
+    /// True if there is nothing to choose from.
+    pub(crate) fn is_one(&self) -> bool {
+        self.is_one
     }
 
     /// Chooses an emitter and a point on it, by a number and two from 0 to less than 1.

@@ -1,6 +1,7 @@
 //! Integrators: what light arrives along a ray. One file each.
 
 pub(crate) mod ambient_occlusion;
+pub(crate) mod cutout;
 pub(crate) mod depth;
 pub(crate) mod first_surface;
 pub(crate) mod normals;

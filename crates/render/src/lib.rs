@@ -47,5 +47,5 @@ pub use film::{BadSample, Film, FilmParts, MergeError, Part, Region, SampleRange
 pub use heatmap::{HeatMap, heatmap};
 pub use memory::memory_needed;
 pub use observer::{NotTraced, RayCounts, RayKind, Scattering, Source, Weighing};
-pub use schedule::{Progress, RenderError, RenderOptions, render, render_on, with_threads};
+pub use schedule::{Progress, RenderError, RenderOptions, coverage, render, render_on, with_threads};
 pub use seen_first::{SeenFirst, seen_first};

@@ -4,8 +4,11 @@
 //! Which samples are taken depends on nothing but the sums of those that are there. Only a limit of time depends on the
 //! machine: it ends after some pass, and the film then says how many samples that was.
 
+mod again;
 mod direct;
 mod noise;
+
+pub(crate) use again::same_samples_again;
 
 use crate::compile::CompiledScene;
 use crate::film::{Film, PixelSums, Region, SampleRange, SampledTile, TILE};

@@ -8,11 +8,13 @@ use crate::compile::CompiledScene;
 use crate::eye::SceneEye;
 use crate::film::{Account, Film, Region, SampleRange, Tile};
 use crate::first_hits::FirstHits;
+use crate::integrators;
 use crate::integrators::ambient_occlusion::AmbientOcclusion;
+use crate::integrators::cutout::{Cutout, Shown};
 use crate::integrators::path::PathTracer;
 use crate::integrators::sharp::Sharp;
 use crate::memory::rows_at_a_time;
-use crate::passes::{Goal, render_samples};
+use crate::passes::{Goal, render_samples, same_samples_again};
 use crate::pixel::render_pixel;
 use crate::reconstruct::{Reconstruction, color_of, normalize};
 use durer_math::Rgb;
@@ -167,19 +169,59 @@ fn samples_of(scene: &CompiledScene, options: &RenderOptions) -> Result<Option<S
 fn take_samples(scene: &CompiledScene, goal: Goal, film: &mut Film, progress: &dyn Progress) {
     match scene.settings.integrator {
         Integrator::Path { max_depth, clamp } => {
-            render_samples((scene, &PathTracer { max_depth, clamp }), goal, film, progress);
+            take_samples_with(scene, &PathTracer { max_depth, clamp }, goal, film, progress);
         }
         Integrator::AmbientOcclusion { distance } => {
-            render_samples(
-                (scene, &AmbientOcclusion { distance: distance.unwrap_or(f64::INFINITY) }),
-                goal,
-                film,
-                progress,
-            );
+            let distance = distance.unwrap_or(f64::INFINITY);
+            take_samples_with(scene, &AmbientOcclusion { distance }, goal, film, progress);
         }
         // They look where anti-aliasing says.
         Integrator::Whitted | Integrator::Normals | Integrator::Depth | Integrator::Uv => {}
     }
+}
+
+fn take_samples_with<I: integrators::Integrator>(
+    scene: &CompiledScene,
+    integrator: &I,
+    goal: Goal,
+    film: &mut Film,
+    progress: &dyn Progress,
+) {
+    match scene.shown {
+        Shown::Everything => render_samples((scene, integrator), goal, film, progress),
+        shown @ (Shown::Things | Shown::Coverage) => {
+            render_samples((scene, &Cutout { integrator, shown }), goal, film, progress);
+        }
+    }
+}
+
+/// How much of each pixel of a film the things of the scene cover, from 0 to 1, row by row: seen by the samples that the film is
+/// of, or else by the same anti-aliasing. Takes as long as the rays of the eye alone. Of the options the threads count.
+///
+/// `None` if it cannot be told any more which samples the film is of.
+///
+/// # Errors
+///
+/// The film's region does not lie in the picture, or the system refused to start the threads.
+pub fn coverage(
+    mut scene: CompiledScene,
+    film: &Film,
+    options: &RenderOptions,
+    progress: &dyn Progress,
+) -> Result<Option<Vec<f32>>, RenderError> {
+    scene.shown = Shown::Coverage;
+    let scene = &scene;
+    let (region, integrator) = (film.region(), Sharp::of(scene));
+    region_of(scene, &RenderOptions { region: Some(region), ..*options })?;
+    let seen = match film.sums() {
+        Some(_) => same_samples_again((scene, &integrator), film, options, progress)?,
+        None => {
+            let mut seen = Film::new(region);
+            with_pool(options, || with_antialias(scene, RenderAll { scene, film: &mut seen, progress }))?;
+            Some(seen.pixels().to_vec())
+        }
+    };
+    Ok(seen.map(|pixels| pixels.iter().map(|pixel| pixel.g.clamp(0.0, 1.0)).collect()))
 }
 
 /// Runs `work` in the pool that the options ask for.

@@ -11,7 +11,7 @@ use crate::shell;
 use durer::imaging::{DecodeLimits, EncodeOptions, FileFormat, Image, Transfer, encode};
 use scenes::Scene;
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 /// Width and height of the pictures.
@@ -21,14 +21,17 @@ const SAMPLES: usize = 64;
 /// Rounds of which the median counts.
 const ROUNDS: usize = 3;
 
-/// A program, and how it is started for a scene, with samples, seed and a file for the picture.
+/// A program, and how it is started.
 struct Program {
     name: String,
-    argv: Box<dyn Fn(&Scene, usize, u32, &str) -> Vec<String>>,
+    argv: Box<Start>,
     ending: &'static str,
     /// The key of the seconds of rendering in what it prints.
     seconds: fn(&Value) -> Option<f64>,
 }
+
+/// The command for a scene, with samples, seed and a file for the picture.
+type Start = dyn Fn(&Scene, usize, u32, &str) -> Vec<String>;
 
 /// What a program made of a scene.
 struct Outcome {
@@ -98,7 +101,7 @@ fn programs(threads: usize) -> Result<Vec<Program>, String> {
             }
         }
         None => {
-            println!("Mitsuba is left out: pip install mitsuba, or name a Python that has it in DURER_BENCH_MITSUBA")
+            println!("Mitsuba is left out: pip install mitsuba, or name a Python that has it in DURER_BENCH_MITSUBA");
         }
     }
     match python("DURER_BENCH_CYCLES", "bpy") {
@@ -159,7 +162,7 @@ fn draw(program: &Program, scene: &Scene, samples: usize, rounds: usize, folder:
     Ok(Outcome { program: program.name.clone(), seconds, mean, pairs })
 }
 
-fn read(path: &PathBuf) -> Result<Image, String> {
+fn read(path: &Path) -> Result<Image, String> {
     let bitmap = durer::read_picture(path, &DecodeLimits::default()).map_err(|error| error.to_string())?;
     Ok(bitmap.to_image(Transfer::Linear))
 }

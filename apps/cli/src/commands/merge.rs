@@ -18,10 +18,10 @@ Examples:
   durer render room.yaml --crop 320,0,320,480 -o right.film
   durer merge left.film right.film -o whole.film
 
-The films must be of one scene with the same settings, and no two may have the same samples
-of a pixel. What comes of it is, byte for byte, what one render with all their samples makes;
-what is missing is told. For a picture the scene must be where it was: it says how films
-are developed.";
+The films must be of one scene with the same settings, and no two may have the same
+samples of a pixel. What comes of it is, byte for byte, what one render with all their
+samples makes; what is missing is told. For a picture the scene must be where it was:
+it says how films are developed.";
 
 /// Put films of parts of a picture together
 #[derive(Args, Debug)]

@@ -27,6 +27,12 @@ fn parts_are_merged_to_the_bytes_of_one_run() {
     assert_eq!(workshop.bytes("again.png"), workshop.bytes("whole.png"));
     workshop.fine("merge whole.film -o from-film.png");
     assert_eq!(workshop.bytes("from-film.png"), workshop.bytes("whole.png"));
+    workshop.fine("render ball.yaml --layers all -o whole.exr");
+    workshop.fine("render ball.yaml --layers all --sample-range 0..5 -o d.film");
+    workshop.fine("render ball.yaml --layers all --sample-range 5..8 -o e.film");
+    workshop.fine("merge d.film e.film -o layers.exr");
+    assert_eq!(workshop.bytes("layers.exr"), workshop.bytes("whole.exr"));
+    workshop.fails("merge a.film e.film -o layers.exr", 4, "it has other layers than");
     assert!(!workshop.names().iter().any(|name| name.contains("checkpoint") || name.contains("part")));
 }
 

@@ -1,6 +1,7 @@
 //! `durer render`.
 
 use crate::workshop::Workshop;
+use durer::imaging::DecodeLimits;
 use durer::math::Rgb;
 
 #[test]
@@ -256,4 +257,44 @@ fn films_are_developed_as_pictures_are_rendered() {
     workshop.fine("render room.yaml -o plain-at-once.png");
     assert_eq!(workshop.picture("plain-at-once.png"), workshop.picture("plain.png"));
     assert_ne!(workshop.picture("plain.png"), workshop.picture("later.png"));
+}
+
+/// A ball before a bright sky, cut out: where nothing is, nothing is, and the ball is what it is without alpha.
+#[test]
+fn backgrounds_are_left_out_with_alpha() {
+    let workshop = Workshop::new();
+    for (integrator, antialias) in
+        [("whitted", "{grid: 4}"), ("whitted", "adaptive"), ("path", "none"), ("ambient_occlusion", "none")]
+    {
+        workshop.put(
+            "ball.yaml",
+            &format!(
+                "{{picture: {{width: 20, height: 16, transfer: linear}}, background: [0.9, 0.6, 0.3],
+                   render: {{integrator: {integrator}, antialias: {antialias}, samples: 16}},
+                   camera: {{position: [0, 0, 5], look_at: [0, 0, 0]}},
+                   objects: [sphere: {{radius: 1.2, material: {{color: [0.2, 0.4, 0.8], specular: 0}}}}]}}"
+            ),
+        );
+        workshop.fine("render ball.yaml -o whole.exr --bit-depth float");
+        workshop.fine("render ball.yaml -o cut.exr --bit-depth float --alpha");
+        workshop.fine("render ball.yaml -o cut.png --bit-depth 16 --alpha");
+        workshop.fine("render ball.yaml -o film.exr --bit-depth float --alpha --layers beauty,albedo");
+        workshop.fine("develop film.exr -o developed.png --bit-depth 16");
+        let bitmap = |name: &str| durer::read_picture(&workshop.path(name), &DecodeLimits::default()).unwrap();
+        let (whole, cut) = (workshop.picture("whole.exr"), workshop.picture("cut.exr"));
+        let alpha = bitmap("cut.exr").alpha.unwrap();
+        let sky = if integrator == "ambient_occlusion" { Rgb::WHITE } else { Rgb::new(0.9, 0.6, 0.3) };
+        let tolerance = if antialias == "adaptive" { 0.02 } else { 1e-4 };
+        let mut edges = 0;
+        for (index, (&whole, &cut)) in whole.pixels.iter().zip(&cut.pixels).enumerate() {
+            let put_back = cut + sky * (1.0 - alpha.get(index));
+            let off = (put_back - whole).map(f32::abs).max_component();
+            assert!(off < tolerance, "{integrator}, {antialias}, {index}: {put_back:?} is not {whole:?}");
+            edges += u32::from(alpha.get(index) > 0.0 && alpha.get(index) < 1.0);
+        }
+        assert_eq!((alpha.get(0), cut.pixels[0], alpha.get(8 * 20 + 10)), (0.0, Rgb::BLACK, 1.0));
+        assert!(edges > 10, "{integrator}, {antialias}: {edges}");
+        assert_eq!(bitmap("cut.png"), bitmap("developed.png"));
+    }
+    workshop.fails("render ball.yaml -o a.jpg --alpha", 2, "--alpha: JPEG has no alpha");
 }

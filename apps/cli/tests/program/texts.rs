@@ -4,8 +4,20 @@ use crate::workshop::Workshop;
 use std::io::Read;
 use std::process::Stdio;
 
-const COMMANDS: [&str; 11] =
-    ["render", "resume", "check", "info", "explain", "heatmap", "compare", "develop", "schema", "completions", "man"];
+const COMMANDS: [&str; 12] = [
+    "render",
+    "resume",
+    "merge",
+    "check",
+    "info",
+    "explain",
+    "heatmap",
+    "compare",
+    "develop",
+    "schema",
+    "completions",
+    "man",
+];
 
 #[test]
 fn help_has_examples_and_exit_codes() {

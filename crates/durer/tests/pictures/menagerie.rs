@@ -11,6 +11,7 @@ use durer::{CompiledScene, Film, Region, RenderOptions};
 
 const TEXT: &str = "
 camera: {position: [0.3, 2.5, 7], look_at: [0, 0.3, 0], fov: 45}
+render: {light_samples: 2}
 fog: {exponential: {color: lightgray, distance: 40}}
 lights: [point: {position: [4, 6, 5]}, directional: {direction: [1, -2, -1], intensity: 0.4}]
 materials:

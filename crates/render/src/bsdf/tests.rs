@@ -40,12 +40,12 @@ fn kinds() -> Vec<Kind> {
         add("white", Bsdf::OrenNayar(OrenNayar::new(Rgb::WHITE, roughness)), Some(2e-3));
         add("matte", Bsdf::OrenNayar(OrenNayar::new(color, roughness)), None);
         let white = Reflectance::Schlick { f0: Rgb::WHITE, f90: Rgb::WHITE };
-        add("white metal", Bsdf::Conductor(Conductor::new(white, white.average(), ggx)), Some(6e-3));
+        add("white metal", Bsdf::Conductor(Conductor::new(white, white.average(), ggx)), Some(1e-2));
         let gold = Reflectance::Complex { eta: Rgb::new(0.2, 0.4, 1.4), k: Rgb::new(3.5, 2.5, 1.8) };
         add("metal", Bsdf::Conductor(Conductor::new(gold, gold.average(), ggx)), None);
         let brushed = Ggx::of_roughness(roughness, 0.7);
         add("brushed metal", Bsdf::Conductor(Conductor::new(gold, gold.average(), brushed)), None);
-        add("white plastic", Bsdf::Plastic(Plastic::new(1.5, Rgb::WHITE, ggx)), Some(6e-3));
+        add("white plastic", Bsdf::Plastic(Plastic::new(1.5, Rgb::WHITE, ggx)), Some(1e-2));
         add("plastic", Bsdf::Plastic(Plastic::new(1.8, color, ggx)), None);
         let layers = Layers {
             base_color: Rgb::WHITE,
@@ -60,8 +60,8 @@ fn kinds() -> Vec<Kind> {
         let mut principled = |name: &str, layers, lossless| {
             add(name, Bsdf::Principled(Principled::new(layers)), lossless);
         };
-        principled("white principled", layers, Some(6e-3));
-        principled("white principled metal", Layers { metallic: 1.0, ..layers }, Some(6e-3));
+        principled("white principled", layers, Some(1e-2));
+        principled("white principled metal", Layers { metallic: 1.0, ..layers }, Some(1e-2));
         let colored = Layers { base_color: color, metallic: 0.3, f0: Rgb::new(0.04, 0.03, 0.06), ..layers };
         principled("principled", colored, None);
         let sheen = Some(Sheen::new(Rgb::new(1.0, 0.8, 0.5), roughness));
@@ -73,13 +73,13 @@ fn kinds() -> Vec<Kind> {
             principled("coated cloth", Layers { coat, sheen, ..colored }, None);
         }
         let thin = Some((1.0, principled::Through::Thin(Sheet::new(1.5, Rgb::WHITE, ggx))));
-        principled("principled pane", Layers { through: thin, ..layers }, Some(6e-3));
+        principled("principled pane", Layers { through: thin, ..layers }, Some(1e-2));
         let half = Some((0.5, principled::Through::Thin(Sheet::new(1.5, color, ggx))));
         principled("principled half pane", Layers { through: half, sheen, ..colored }, None);
         let bent = |eta| Some((0.7, principled::Through::Bent(Dielectric::new(eta, Rgb::WHITE, ggx))));
         principled("principled half glass", Layers { through: bent(1.5), ..layers }, Some(1.5e-2));
         principled("from within principled half glass", Layers { through: bent(1.0 / 1.5), ..layers }, Some(1.5e-2));
-        add("rough pane", Bsdf::Sheet(Sheet::new(1.5, Rgb::WHITE, ggx)), Some(6e-3));
+        add("rough pane", Bsdf::Sheet(Sheet::new(1.5, Rgb::WHITE, ggx)), Some(1e-2));
         for eta in [1.3, 2.4] {
             for eta in [eta, 1.0 / eta] {
                 let glass = |eta| Bsdf::Dielectric(Dielectric::new(eta, Rgb::WHITE, ggx));

@@ -117,6 +117,11 @@ impl LightTree {
         LightTree { nodes, leaves }
     }
 
+    /// How many emitters it is of.
+    pub(crate) fn len(&self) -> usize {
+        self.nodes.len().div_ceil(2)
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
@@ -131,9 +136,6 @@ impl LightTree {
     pub(crate) fn sample(&self, receiver: &Receiver, choice: f64) -> Option<(u32, f64)> {
         let (mut at, mut probability, mut choice) = (0, 1.0, choice);
         let mut node = self.nodes.first()?;
-        if node.is_leaf && node.importance(receiver) <= 0.0 {
-            return None;
-        }
         while !node.is_leaf {
             let second = node.link as usize;
             let first_part = self.first_part(at + 1, second, receiver)?;
@@ -153,9 +155,6 @@ impl LightTree {
     pub(crate) fn probability(&self, receiver: &Receiver, id: u32) -> f64 {
         let Some(&leaf) = self.leaves.get(id as usize).filter(|&&leaf| leaf != NONE) else { return 0.0 };
         let mut at = leaf as usize;
-        if at == 0 {
-            return f64::from(u8::from(self.nodes[0].importance(receiver) > 0.0));
-        }
         let mut probability = 1.0;
         while at != 0 {
             let parent = self.nodes[at].parent as usize;

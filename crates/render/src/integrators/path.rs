@@ -164,7 +164,7 @@ impl<O: Observer> Path<'_, O> {
         if !bsdf.is_specular() {
             self.aim(shading, (&frame, out), &bsdf, &receiver);
         }
-        let lobe = self.sampler.one(step, Purpose::Lobe);
+        let lobe = if bsdf.has_one_lobe() { 0.0 } else { self.sampler.one(step, Purpose::Lobe) };
         let Some(scattered) = bsdf.sample(out, lobe, self.sampler.two(step, Purpose::Direction)) else {
             return false;
         };
@@ -232,7 +232,7 @@ impl<O: Observer> Path<'_, O> {
     /// Looks for light by aiming at an emitter.
     fn aim(&mut self, shading: &Shading<'_>, (frame, out): (&Frame, DVec3), bsdf: &Bsdf, receiver: &Receiver) {
         let (scene, step) = (self.scene, self.step());
-        let choice = self.sampler.one(step, Purpose::Light);
+        let choice = if scene.emitters.is_one() { 0.0 } else { self.sampler.one(step, Purpose::Light) };
         let at = self.sampler.two(step, Purpose::LightPoint);
         let Some(light) = scene.emitters.sample(scene, receiver, choice, at) else { return };
         let toward = frame.to_local(light.direction);

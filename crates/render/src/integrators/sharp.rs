@@ -1,6 +1,7 @@
 //! The integrators that need no samples of their own: anti-aliasing says where they look.
 
 use super::Integrator;
+use super::cutout::{Cutout, Shown};
 use super::depth::Depth;
 use super::normals::Normals;
 use super::uv::Uv;
@@ -12,8 +13,14 @@ use crate::sampler::Sampler;
 use durer_geometry::Ray;
 use durer_math::Rgb;
 
-/// One of them. Which one is asked once for each ray of the eye, which costs nothing beside what it does then.
-pub(crate) enum Sharp {
+/// One of them, for all or a part of what there is.
+pub(crate) struct Sharp {
+    kind: Kind,
+    shown: Shown,
+}
+
+/// Which one is asked once for each ray of the eye, which costs nothing beside what it does then.
+enum Kind {
     Whitted(Whitted),
     Normals(Normals),
     Depth(Depth),
@@ -24,14 +31,15 @@ impl Sharp {
     /// That which the scene wants. For integrators that take samples it is the classic one, whose picture is at least of the
     /// same things.
     pub(crate) fn of(scene: &CompiledScene) -> Sharp {
-        match scene.settings.integrator {
+        let kind = match scene.settings.integrator {
             durer_scene::Integrator::Whitted
             | durer_scene::Integrator::Path { .. }
-            | durer_scene::Integrator::AmbientOcclusion { .. } => Sharp::Whitted(Whitted),
-            durer_scene::Integrator::Normals => Sharp::Normals(Normals),
-            durer_scene::Integrator::Depth => Sharp::Depth(Depth::of(scene)),
-            durer_scene::Integrator::Uv => Sharp::Uv(Uv),
-        }
+            | durer_scene::Integrator::AmbientOcclusion { .. } => Kind::Whitted(Whitted),
+            durer_scene::Integrator::Normals => Kind::Normals(Normals),
+            durer_scene::Integrator::Depth => Kind::Depth(Depth::of(scene)),
+            durer_scene::Integrator::Uv => Kind::Uv(Uv),
+        };
+        Sharp { kind, shown: scene.shown }
     }
 }
 
@@ -45,11 +53,30 @@ impl Integrator for Sharp {
         sampler: &Sampler,
         observer: &mut O,
     ) -> Rgb {
+        match self.shown {
+            Shown::Everything => self.kind.radiance(scene, ray, known, sampler, observer),
+            shown @ (Shown::Things | Shown::Coverage) => {
+                Cutout { integrator: &self.kind, shown }.radiance(scene, ray, known, sampler, observer)
+            }
+        }
+    }
+}
+
+impl Integrator for Kind {
+    #[inline]
+    fn radiance<O: Observer>(
+        &self,
+        scene: &CompiledScene,
+        ray: &Ray,
+        known: Known<'_>,
+        sampler: &Sampler,
+        observer: &mut O,
+    ) -> Rgb {
         match self {
-            Sharp::Whitted(integrator) => integrator.radiance(scene, ray, known, sampler, observer),
-            Sharp::Normals(integrator) => integrator.radiance(scene, ray, known, sampler, observer),
-            Sharp::Depth(integrator) => integrator.radiance(scene, ray, known, sampler, observer),
-            Sharp::Uv(integrator) => integrator.radiance(scene, ray, known, sampler, observer),
+            Kind::Whitted(integrator) => integrator.radiance(scene, ray, known, sampler, observer),
+            Kind::Normals(integrator) => integrator.radiance(scene, ray, known, sampler, observer),
+            Kind::Depth(integrator) => integrator.radiance(scene, ray, known, sampler, observer),
+            Kind::Uv(integrator) => integrator.radiance(scene, ray, known, sampler, observer),
         }
     }
 }

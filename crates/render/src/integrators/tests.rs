@@ -12,7 +12,7 @@ use durer_math::{DVec3, Rgb};
 use durer_scene::{Camera, Object, ObjectKind, Scene, Shape};
 
 fn scene(shapes: &[Shape]) -> CompiledScene {
-    let objects = shapes.iter().map(|shape| Object::new(ObjectKind::Shape(shape.clone()))).collect();
+    let objects = shapes.iter().map(|shape| Object::new(ObjectKind::Shape(*shape))).collect();
     compile(&Scene { objects, camera: Some(Camera::default()), ..Scene::default() }.check().unwrap())
 }
 
@@ -38,7 +38,7 @@ fn occlusion(shapes: &[Shape], distance: f64) -> f32 {
 fn a_ball_hides_as_much_sky_as_its_form_factor_says() {
     for (radius, height) in [(1.0, 2.0), (2.0, 2.5), (0.5, 3.0)] {
         let ball = Shape::Sphere { center: DVec3::Y * height, radius };
-        let seen = f64::from(occlusion(&[floor(), ball.clone()], f64::INFINITY));
+        let seen = f64::from(occlusion(&[floor(), ball], f64::INFINITY));
         let expected = 1.0 - (radius / height) * (radius / height);
         assert!((seen - expected).abs() < 0.015, "{radius}, {height}: {seen}, not {expected}");
         assert_eq!(occlusion(&[floor(), ball], (height - radius) * 0.99), 1.0, "nothing is so near");
@@ -50,7 +50,7 @@ fn an_open_sky_is_white_and_a_closed_box_black() {
     assert_eq!(occlusion(&[floor()], f64::INFINITY), 1.0);
     assert_eq!(occlusion(&[], f64::INFINITY), 1.0);
     let shell = Shape::Sphere { center: DVec3::ZERO, radius: 9.0 };
-    assert_eq!(occlusion(&[floor(), shell.clone()], f64::INFINITY), 0.0);
+    assert_eq!(occlusion(&[floor(), shell], f64::INFINITY), 0.0);
     assert_eq!(occlusion(&[floor(), shell], 8.0), 1.0);
 }
 

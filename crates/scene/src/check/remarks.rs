@@ -124,7 +124,7 @@ fn planes(c: &mut Checker<'_>, objects: &[Object], around: Option<MaterialId>) {
                 ObjectKind::Shape(Shape::Plane { .. }) => plane(c, material),
                 ObjectKind::Group(members) => c.field("objects", |c| planes(c, members, material)),
                 ObjectKind::Instances(Instances { objects, .. }) => {
-                    c.field("objects", |c| planes(c, objects, material))
+                    c.field("objects", |c| planes(c, objects, material));
                 }
                 ObjectKind::Import(Import { .. })
                 | ObjectKind::Shape(_)

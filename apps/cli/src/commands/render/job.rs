@@ -37,10 +37,21 @@ struct Outcome<'a> {
     show: Show,
 }
 
+/// What tracing gives.
+struct Traced {
+    film: Film,
+    /// What is seen first, if that is wanted.
+    seen: Option<SeenFirst>,
+    /// How much of each pixel is there, if that is wanted.
+    alpha: Option<Vec<f32>>,
+    /// For building and for tracing.
+    seconds: [f64; 2],
+}
+
 /// What is written.
 enum What<'a> {
-    /// A picture, alone or with layers.
-    Picture(EncodeOptions, Option<Layers>),
+    /// A picture, alone or with layers; and how much of each pixel is there, if not all.
+    Picture(EncodeOptions, Option<Layers>, Option<Vec<f32>>),
     /// The film itself, as checkpoints are.
     Film(&'a Saver<'a>),
 }
@@ -57,6 +68,7 @@ impl Job<'_> {
         let format = if target::is_film(&path) { None } else { Some(target::format_of(&path)?) };
         let mut options = match format {
             Some(format) => arguments.file.encode_options(format)?,
+            None if arguments.layers.alpha => return Err(Failure::usage("--alpha: films have none; pictures have")),
             None => arguments.file.of_no_picture().map(|()| EncodeOptions::default())?,
         };
         let (loaded, load) = timed(|| arguments.scene.load_with_sources(show));
@@ -64,9 +76,14 @@ impl Job<'_> {
         let fingerprint = durer::scene_fingerprint(scene.scene(), &sources);
         let scene = arguments.overrides.apply(scene)?;
         options.metadata = provenance::of_render(fingerprint, scene.scene(), arguments.crop);
+        let (integrator, exr) = (&scene.scene().render.integrator, durer::imaging::FileFormat::Exr);
         let layers = match format {
-            Some(format) => arguments.layers.of_file(format, &scene.scene().render.integrator)?,
-            None => None,
+            Some(format) => arguments.layers.of_file(format, integrator)?,
+            // What a film knows beside the colors goes into the pictures that are made of it.
+            None => arguments.layers.of_file(exr, integrator)?.map(|mut layers| {
+                layers.retain(|layer| layer.is_of_paths());
+                layers
+            }),
         };
         if !scene.scene().render.integrator.takes_samples() && (format.is_none() || arguments.sample_range.is_some()) {
             let integrator = scene.scene().render.integrator.word();
@@ -90,7 +107,7 @@ impl Job<'_> {
         let mut file = PictureFile::create(&path)?;
         interrupt.removes(file.temporary());
         file.reserve(match format {
-            Some(_) => most_bytes(&options, layers.as_deref(), (region.width, region.height)),
+            Some(_) => most_bytes(&options, (layers.as_deref(), arguments.layers.alpha), (region.width, region.height)),
             None => checkpoint_bytes_a_pixel(&scene) * region.pixels(),
         })?;
         if let Some(saver) = &saver {
@@ -102,14 +119,16 @@ impl Job<'_> {
         }
         let rays_before = film.as_ref().map_or(0, |film| film.rays().total());
         let wanted = layers.as_deref().unwrap_or_default();
-        let (mut film, seen, [build, render]) =
+        let Traced { mut film, seen, alpha, seconds: [build, render] } =
             self.trace(&scene, (film, region, wanted), &interrupt, saver.as_ref(), show)?;
         let report =
             Report::new(arguments.scene.path.clone(), path, format, &film, picture.exposure).after(rays_before);
         let report = report.with_seconds(Seconds { load, build, render, write: 0.0 }).stopped_by(interrupt.reason());
-        let layers = layers.map(|layers| film_layers(&film, seen.as_ref(), &layers, options.exr_samples));
+        let layers = layers.filter(|_| format.is_some());
+        let layers =
+            layers.map(|layers| film_layers((&film, alpha.as_deref()), seen.as_ref(), &layers, options.exr_samples));
         let what = match (format, &saver) {
-            (Some(_), _) => What::Picture(options, layers),
+            (Some(_), _) => What::Picture(options, layers, alpha),
             (None, Some(saver)) => What::Film(saver),
             (None, None) => return Err(Failure::usage("films need names of files that are UTF-8")),
         };
@@ -179,11 +198,14 @@ impl Job<'_> {
         interrupt: &Interrupt,
         saver: Option<&Saver<'_>>,
         show: Show,
-    ) -> Result<(Film, Option<SeenFirst>, [f64; 2]), Failure> {
+    ) -> Result<Traced, Failure> {
         durer::with_threads(self.manner.threads.map(usize::from), || {
             let simd = self.arguments.simd.unwrap_or_default();
             let (compiled, build) = timed(|| self.arguments.scene.compile_for(scene, simd, show));
-            let compiled = compiled?;
+            let mut compiled = compiled?;
+            if self.arguments.layers.alpha {
+                compiled.leave_out_background();
+            }
             let already = film.as_ref().map_or(0, Film::done);
             let bar = Bar::new(interrupt.stop_flag(), already, show);
             let watch = Watch { bar, saver, total: AtomicU64::new(region.pixels()) };
@@ -206,7 +228,15 @@ impl Job<'_> {
             let options = RenderOptions { region: Some(film.region()), ..RenderOptions::default() };
             let find_seen = || seen_first(&compiled, &options, &Stop(interrupt.stop_flag()));
             let seen = wants_seen.then(find_seen).transpose()?;
-            Ok((film, seen, [build, render]))
+            let alpha = match self.arguments.layers.alpha {
+                // Quick, and without it what there is of a picture could not be seen: so nothing stops it.
+                true => durer::coverage(compiled, &film, &options, &())?,
+                false => None,
+            };
+            if self.arguments.layers.alpha && alpha.is_none() {
+                return Err(Failure::usage("--alpha: it cannot be told which samples the film is of"));
+            }
+            Ok(Traced { film, seen, alpha, seconds: [build, render] })
         })?
     }
 
@@ -279,11 +309,12 @@ impl Job<'_> {
 /// Writes the film, or what is made of it; gives the number of bytes.
 fn write(file: PictureFile, film: &mut Film, what: What<'_>) -> Result<usize, WriteError> {
     match what {
-        What::Picture(mut options, layers) => {
+        What::Picture(mut options, layers, alpha) => {
             options.metadata.extend(film.sums().map(provenance::of_samples));
-            match layers {
-                Some(layers) => file.write_layers(layers, &options),
-                None => film.with_picture(|image| file.write(image, &options)),
+            match (layers, alpha) {
+                (Some(layers), _) => file.write_layers(layers, &options),
+                (None, Some(alpha)) => film.with_picture(|image| file.write_with_alpha(image, &alpha, &options)),
+                (None, None) => film.with_picture(|image| file.write(image, &options)),
             }
         }
         What::Film(saver) => file.write_bytes(&saver.bytes(film)),

@@ -14,6 +14,10 @@ pub(super) struct LayerOptions {
     /// of pictures by samples, direct, indirect, variance and samples, with commas between [default: beauty]
     #[arg(long, value_name = "NAMES", value_parser = layers)]
     layers: Option<Chosen>,
+
+    /// Leave out the background where the eye sees it: the alpha of a PNG or EXR says how much of each pixel is there
+    #[arg(long)]
+    pub(super) alpha: bool,
 }
 
 /// Layers in the order of files, each once.
@@ -44,6 +48,9 @@ impl LayerOptions {
         format: FileFormat,
         integrator: &Integrator,
     ) -> Result<Option<Vec<FilmLayer>>, Failure> {
+        if self.alpha && !matches!(format, FileFormat::Png | FileFormat::Exr) {
+            return Err(Failure::usage(format!("--alpha: {} has no alpha; PNG and EXR have", format.name())));
+        }
         let Some(chosen) = &self.layers else { return Ok(None) };
         if format != FileFormat::Exr {
             return Err(Failure::usage(format!("--layers: only EXR has layers, {} has none", format.name())));
@@ -63,10 +70,15 @@ impl LayerOptions {
 }
 
 /// The most bytes that the file may take.
-pub(super) fn most_bytes(options: &EncodeOptions, layers: Option<&[FilmLayer]>, (width, height): (u32, u32)) -> u64 {
+pub(super) fn most_bytes(
+    options: &EncodeOptions,
+    (layers, with_alpha): (Option<&[FilmLayer]>, bool),
+    (width, height): (u32, u32),
+) -> u64 {
     let metadata = EncodeOptions { metadata: options.metadata.clone(), ..EncodeOptions::default() }.most_bytes(0, 0);
     match layers {
         Some(layers) => FilmLayer::most_bytes(layers, options.exr_samples, width, height) + metadata,
+        None if with_alpha => options.most_bytes_with_alpha(width, height),
         None => options.most_bytes(width, height),
     }
 }
@@ -89,7 +101,7 @@ mod tests {
     #[test]
     fn all_layers_are_those_that_the_integrator_has() {
         let count = |integrator: Integrator| {
-            let options = LayerOptions { layers: Some(Chosen::All) };
+            let options = LayerOptions { layers: Some(Chosen::All), alpha: false };
             options.of_file(FileFormat::Exr, &integrator).map(|layers| layers.map(|layers| layers.len())).ok()
         };
         assert_eq!(count(Integrator::Whitted), Some(Some(8)));
