@@ -34,7 +34,7 @@ impl Ahead {
         is_classic && scene.eye_vantage.is_some() && scene.media_at_eye.is_empty() && !scene.has_holes
     }
 
-    /// Looks through at most eight points of the picture, in pixels. False, and nothing is known, where that does not pay.
+    /// Looks through at most eight points of the picture, in pixels, where that [pays](Ahead::pays).
     pub(crate) fn look(&mut self, scene: &CompiledScene, points: &[DVec2]) {
         let Some(eye) = scene.eye_vantage.as_ref() else { return };
         let Some(rays) = scene.camera.rays(&scene.world, points) else { return };

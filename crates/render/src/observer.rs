@@ -111,11 +111,6 @@ pub(crate) trait Observer {
     fn shadow_ray(&mut self) {}
     /// An amount added to the pixel, weights included. The pixel is the sum of these, in this order.
     fn contribution(&mut self, _source: Source, _amount: Rgb) {}
-    /// All that arrives along a ray of the eye is known, and how many rays to lights that took. True if nothing else need be
-    /// told of it.
-    fn sum_is_enough(&mut self, _shadow_rays: u64) -> bool {
-        false
-    }
     /// Of the contribution that comes next.
     fn weighing(&mut self, _weighing: &Weighing) {}
     fn scattering(&mut self, _scattering: &Scattering) {}
@@ -165,12 +160,6 @@ impl Observer for RayCounts {
 
     fn shadow_ray(&mut self) {
         self.shadow += 1;
-    }
-
-    fn sum_is_enough(&mut self, shadow_rays: u64) -> bool {
-        self.eye += 1;
-        self.shadow += shadow_rays;
-        true
     }
 
     fn not_traced(&mut self, _kind: RayKind, _weight: Rgb, why: NotTraced) {

@@ -44,6 +44,17 @@ struct Gathered<'a, I> {
     pixel: Pixel,
 }
 
+impl<I: Integrator> Gathered<'_, I> {
+    #[inline(never)]
+    fn trace(&mut self, at: DVec2, known: Known<'_>) -> Rgb {
+        let (ray, sampler) = match known.seen() {
+            Some(seen) => (seen.ray(self.scene, at), Sampler::of_place(self.scene.settings.seed, at)),
+            None => begin(self.scene, at),
+        };
+        self.integrator.radiance(self.scene, &ray, known, &sampler, &mut self.account.rays)
+    }
+}
+
 impl<I: Integrator> Samples for Gathered<'_, I> {
     fn take(&mut self, at: DVec2) -> Sample {
         let known = match (self.first_rays.known(self.taken as usize), &self.scene.eye_vantage) {
@@ -51,11 +62,14 @@ impl<I: Integrator> Samples for Gathered<'_, I> {
             (None, Some(vantage)) => Known::Vantage(vantage),
             (None, None) => Known::Nothing,
         };
-        let (ray, sampler) = match known.seen() {
-            Some(seen) => (seen.ray(self.scene, at), Sampler::of_place(self.scene.settings.seed, at)),
-            None => begin(self.scene, at),
+        let mut color = match known.seen().and_then(|seen| seen.sum()) {
+            Some(sum) => {
+                let rays = &mut self.account.rays;
+                (rays.eye, rays.shadow) = (rays.eye + 1, rays.shadow + sum.shadow_rays);
+                sum.color
+            }
+            None => self.trace(at, known),
         };
-        let mut color = self.integrator.radiance(self.scene, &ray, known, &sampler, &mut self.account.rays);
         if !color.is_finite() {
             self.account.bad_sample(at);
             self.pixel.has_bad_samples = true;

@@ -31,11 +31,6 @@ impl Integrator for Whitted {
         sampler: &Sampler,
         observer: &mut O,
     ) -> Rgb {
-        if let Some(sum) = known.seen().and_then(|seen| seen.sum())
-            && observer.sum_is_enough(sum.shadow_rays)
-        {
-            return sum.color;
-        }
         let media = if scene.media_at_eye.is_empty() { Media::default() } else { Media::around(scene, ray) };
         let mut path = Path { scene, sampler, lit: 0, media, sum: Rgb::BLACK, observer };
         path.trace(RayKind::Eye, 1, ray, Rgb::WHITE, known);
