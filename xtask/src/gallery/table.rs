@@ -3,6 +3,7 @@
 
 mod air;
 mod glass;
+mod light;
 mod lights;
 mod pixels;
 mod places;
@@ -56,6 +57,7 @@ const FINE: Picture = Picture { arguments: &["--antialias", "grid:4"], ..RENDERE
 /// The gallery.
 const THEMES: &[&[Entry]] = &[
     scenes::ENTRIES,
+    light::ENTRIES,
     shapes::ENTRIES,
     textures::ENTRIES,
     places::ENTRIES,
