@@ -5,8 +5,8 @@ fn gray(amount: f32) -> Paint {
     Paint::Color(Rgb::gray(amount))
 }
 
-fn read(kind: MaterialKind) -> Classic {
-    whitted(&kind, &mut Means::new(&Scene::default()))
+fn read(kind: &MaterialKind) -> Classic {
+    whitted(kind, &mut Means::new(&Scene::default()))
 }
 
 fn read_principled(metallic: f32, roughness: f32, more: impl FnOnce(&mut Principled)) -> Classic {
@@ -18,7 +18,7 @@ fn read_principled(metallic: f32, roughness: f32, more: impl FnOnce(&mut Princip
     };
     let mut principled = base;
     more(&mut principled);
-    read(MaterialKind::Principled(Box::new(principled)))
+    read(&MaterialKind::Principled(Box::new(principled)))
 }
 
 fn near(a: Rgb, b: Rgb) -> bool {
@@ -93,22 +93,22 @@ fn a_clear_coat_mirrors_above_what_is_dull() {
 fn metals_and_mirrors_mirror() {
     let metal = |roughness| {
         let conductor = Conductor::Named(MetalName::Gold);
-        read(MaterialKind::Metal(Metal { conductor, roughness: gray(roughness), ..Metal::default() }))
+        read(&MaterialKind::Metal(Metal { conductor, roughness: gray(roughness), ..Metal::default() }))
     };
     let gold = MetalName::Gold.reflectance();
     assert!(near(metal(0.0).reflection, gold) && metal(0.0).diffuse == 0.0);
     assert!(near(metal(0.5).reflection, gold * 0.25) && metal(0.5).diffuse == 0.75);
     assert_eq!((metal(1.0).reflection, metal(1.0).color), (Rgb::BLACK, Paint::Color(gold)));
-    let mirror = read(MaterialKind::Mirror(Mirror { color: gray(0.9) }));
+    let mirror = read(&MaterialKind::Mirror(Mirror { color: gray(0.9) }));
     assert_eq!((mirror.reflection, mirror.diffuse, mirror.ambient), (Rgb::gray(0.9), 0.0, 0.0));
 }
 
 #[test]
 fn glass_refracts_and_panes_do_not() {
-    let body = read(MaterialKind::Glass(Glass { color: gray(0.9), ..Glass::default() }));
+    let body = read(&MaterialKind::Glass(Glass { color: gray(0.9), ..Glass::default() }));
     assert_eq!((body.transparency, body.ior, body.fresnel), (Rgb::gray(0.9), Some(1.5), true));
     assert_eq!((body.diffuse, body.reflection), (0.0, Rgb::BLACK));
-    let pane = read(MaterialKind::Glass(Glass { thin: true, ..Glass::default() }));
+    let pane = read(&MaterialKind::Glass(Glass { thin: true, ..Glass::default() }));
     // Both sides of a pane of index 1.5 give back 0.08 / 1.04, and let all else through.
     assert!(near(pane.reflection, Rgb::gray(0.08 / 1.04)) && near(pane.transparency, Rgb::gray(0.96 / 1.04)));
     assert_eq!((pane.ior, pane.fresnel), (None, false));
@@ -117,9 +117,9 @@ fn glass_refracts_and_panes_do_not() {
 #[test]
 fn plastic_is_matte_below_its_coat() {
     let plastic = Plastic { color: gray(0.3), ior: 1.5, roughness: gray(0.0) };
-    let polished = read(MaterialKind::Plastic(plastic));
+    let polished = read(&MaterialKind::Plastic(plastic));
     assert_eq!((polished.color, polished.diffuse), (gray(0.3), 1.0));
     assert!(near(polished.reflection, Rgb::gray(0.04)) && near(polished.specular, Rgb::WHITE));
-    let matte = read(MaterialKind::Matte(Matte { color: gray(0.3), roughness: gray(1.0) }));
+    let matte = read(&MaterialKind::Matte(Matte { color: gray(0.3), roughness: gray(1.0) }));
     assert_eq!((matte.color, matte.diffuse, matte.specular), (gray(0.3), 1.0, Rgb::BLACK));
 }
