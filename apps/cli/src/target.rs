@@ -94,3 +94,13 @@ fn bit_depth_message(format: FileFormat) -> String {
     };
     format!("--bit-depth: {} has {known}", format.name())
 }
+
+/// True if two paths, of files that need not be there, lead to the same place.
+pub(crate) fn same_place(a: &Path, b: &Path) -> bool {
+    let folder = |path: &Path| {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
+    };
+    a.file_name() == b.file_name() && folder(a) == folder(b)
+}
+

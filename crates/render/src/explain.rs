@@ -3,17 +3,20 @@
 use crate::antialias::{Antialias, Rows, Splat};
 use crate::compile::CompiledScene;
 use crate::eye::{SceneEye, begin};
-use crate::film::{Account, Region};
+use crate::film::{Account, Part, PixelSums, Region, SampleRange, Sums};
+use crate::filter_sampling::FilterSampling;
 use crate::holes::Known;
-use crate::integrators::{Integrator, sharp::Sharp};
+use crate::integrators::{Integrator as AnyIntegrator, ambient_occlusion::AmbientOcclusion, path::PathTracer, sharp::Sharp};
 use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Scattering, Source, SurfaceSeen, Weighing};
+use crate::passes::Begun;
 use crate::reconstruct::{Reconstruction, color_of, normalize};
-use crate::schedule::{WithAntialias, pixel_alone, with_antialias};
+use crate::schedule::{RenderOptions, WithAntialias, pixel_alone, render, with_antialias};
 use durer_geometry::{Hit, Ray, Surface};
 use durer_math::{DVec2, DVec3, Rgb};
-use durer_scene::{MaterialId, PixelFilter};
+use durer_scene::{Integrator, MaterialId, PixelFilter};
 
-/// How a pixel got its colour: the sum of the colours of its kept samples, each times its weight, in this order.
+/// How a pixel got its colour: the sum of the colours of its kept samples, each times its weight, in this order; or their
+/// mean.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PixelExplanation {
     /// Column, from the left.
@@ -25,6 +28,8 @@ pub struct PixelExplanation {
     /// The samples, in the order in which they are added up: those of other pixels, too, if the filter reaches them. Rays that
     /// only decided where an edge is are not among them.
     pub samples: Vec<SampleExplanation>,
+    /// True if the integrator takes samples of its own: the color is their mean, which is computed exactly and rounded once.
+    pub is_mean: bool,
 }
 
 /// One ray of the eye and all that came of it.
@@ -161,6 +166,14 @@ pub fn explain(scene: &CompiledScene, x: u32, y: u32) -> Option<PixelExplanation
     if x >= width || y >= height {
         return None;
     }
+    match scene.settings.integrator {
+        Integrator::Path { max_depth, clamp } => return explain_samples(scene, &PathTracer { max_depth, clamp }, (x, y)),
+        Integrator::AmbientOcclusion { distance } => {
+            let distance = distance.unwrap_or(f64::INFINITY);
+            return explain_samples(scene, &AmbientOcclusion { distance }, (x, y));
+        }
+        Integrator::Whitted | Integrator::Normals | Integrator::Depth | Integrator::Uv => {}
+    }
     let (splats, integrator) = (with_antialias(scene, Samples { scene, x, y }), Sharp::of(scene));
     let explained = splats.iter().filter_map(|splat| {
         let mut recorder = Recorder { scene, ray: None, open: Vec::new(), weighing: None };
@@ -169,7 +182,27 @@ pub fn explain(scene: &CompiledScene, x: u32, y: u32) -> Option<PixelExplanation
         let weight = (splat.weight != 0.0).then_some(splat.weight);
         Some(SampleExplanation { at: splat.at, weight, color, ray: recorder.ray? })
     });
-    Some(PixelExplanation { x, y, color: color_of(&splats), samples: explained.collect() })
+    Some(PixelExplanation { x, y, color: color_of(&splats), samples: explained.collect(), is_mean: false })
+}
+
+/// Of integrators that take samples: all that the pixel has when it is rendered alone.
+fn explain_samples<I: AnyIntegrator>(
+    scene: &CompiledScene,
+    integrator: &I,
+    (x, y): (u32, u32),
+) -> Option<PixelExplanation> {
+    let options = RenderOptions { region: Some(Region { x, y, width: 1, height: 1 }), ..RenderOptions::default() };
+    let film = render(scene, &options, &()).ok()?;
+    let (color, taken) = (*film.pixels().first()?, film.sums()?.samples() as u32);
+    let filter = FilterSampling::new(scene.settings.filter);
+    let explained = (0..taken).filter_map(|number| {
+        let Begun { sampler, at, is_negative, ray } = Begun::new(scene, &filter, (x, y), number);
+        let mut recorder = Recorder { scene, ray: None, open: Vec::new(), weighing: None };
+        let color = integrator.radiance(scene, &ray, Known::Nothing, &sampler, &mut recorder);
+        let weight = if is_negative { -1.0 } else { 1.0 } / taken as f32;
+        Some(SampleExplanation { at, weight: color.is_finite().then_some(weight), color, ray: recorder.ray? })
+    });
+    Some(PixelExplanation { x, y, color, samples: explained.collect(), is_mean: true })
 }
 
 /// Finds the samples of a pixel.
@@ -323,6 +356,20 @@ impl RayExplanation {
 impl PixelExplanation {
     /// The pixel's colour, added up again from the contributions.
     pub fn sum(&self) -> Rgb {
+        if self.is_mean {
+            let mut exact = PixelSums::default();
+            for (weight, sample) in self.samples.iter().filter_map(|sample| sample.weight.zip(Some(sample))) {
+                // What is not finite has no weight.
+                let _ = exact.add(sample.ray.sum(Rgb::BLACK), Rgb::BLACK, weight < 0.0);
+            }
+            let part = Part {
+                region: Region { x: 0, y: 0, width: 1, height: 1 },
+                samples: SampleRange { start: 0, end: self.samples.len() as u32 },
+            };
+            let mut sums = Sums::new(part, false);
+            sums.add(0, &exact);
+            return sums.mean(0);
+        }
         let mut sum = Rgb::BLACK;
         for sample in &self.samples {
             if let Some(weight) = sample.weight {

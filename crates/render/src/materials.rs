@@ -110,7 +110,9 @@ impl Material {
             Passage::Sheets => !is_medium,
             Passage::Thin => true,
         };
-        by_angle || matches!(self.opacity, Some(Paint::Texture(_)))
+        // What refracts lets no light through straight; what is but partly there lets it past.
+        let beside_glass = matches!(self.passage, Passage::Sheets | Passage::EvenSheets) && self.opacity.is_some();
+        by_angle || beside_glass || matches!(self.opacity, Some(Paint::Texture(_)))
     }
 
     /// True if shading must look for holes or relief.

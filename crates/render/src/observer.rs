@@ -38,6 +38,23 @@ pub enum Source {
     Shown,
 }
 
+impl Source {
+    /// True if light of this kind, found at the end of a path's segment of this depth, met one surface at most on its way.
+    pub(crate) fn is_direct(self, depth: u32) -> bool {
+        // The segment of depth 2 comes from the first surface: what gives light by itself at its end met that one alone.
+        let deepest = match self {
+            Source::Emission | Source::Background => 2,
+            Source::Fog
+            | Source::Ambient
+            | Source::Diffuse(_)
+            | Source::Specular(_)
+            | Source::Light(_)
+            | Source::Shown => 1,
+        };
+        depth <= deepest
+    }
+}
+
 /// Why a ray that a surface asks for was not traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotTraced {

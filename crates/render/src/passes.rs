@@ -168,11 +168,11 @@ struct Sampling<'a, I> {
 }
 
 /// A sample before it is traced.
-struct Begun {
-    sampler: Sampler,
-    at: DVec2,
-    is_negative: bool,
-    ray: Ray,
+pub(crate) struct Begun {
+    pub(crate) sampler: Sampler,
+    pub(crate) at: DVec2,
+    pub(crate) is_negative: bool,
+    pub(crate) ray: Ray,
 }
 
 impl<I: Integrator> Sampling<'_, I> {
@@ -221,9 +221,15 @@ impl<I: Integrator> Sampling<'_, I> {
     }
 
     fn begin(&self, pixel: (u32, u32), number: u32) -> Begun {
-        let scene = self.scene;
-        let sampler = Sampler::new(scene.settings.seed, pixel, self.first + number);
-        let (at, is_negative) = self.filter.place(pixel, sampler.two(0, Purpose::Pixel));
+        Begun::new(self.scene, &self.filter, pixel, self.first + number)
+    }
+}
+
+impl Begun {
+    /// The sample of a pixel with this number.
+    pub(crate) fn new(scene: &CompiledScene, filter: &FilterSampling, pixel: (u32, u32), number: u32) -> Begun {
+        let sampler = Sampler::new(scene.settings.seed, pixel, number);
+        let (at, is_negative) = filter.place(pixel, sampler.two(0, Purpose::Pixel));
         let ray = match scene.camera.has_lens() {
             true => scene.camera.ray_through_lens(at, sampler.two(0, Purpose::Lens)),
             false => scene.camera.ray(at),

@@ -178,7 +178,7 @@ impl Scattering {
             | Scattering::Plastic { .. }
             | Scattering::Mirror
             | Scattering::Classic(_) => false,
-            Scattering::Principled(layers) => !is_zero(layers.transmission) && !layers.thin,
+            Scattering::Principled(layers) => principled::is_clear_body(layers),
         }
     }
 }

@@ -40,6 +40,10 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pixel: (u32, u32),
 
+    /// Show but this sample, from 1: of pictures that are made of many
+    #[arg(long, value_name = "N")]
+    sample: Option<usize>,
+
     /// Print everything as JSON
     #[arg(long)]
     json: bool,
@@ -54,6 +58,8 @@ struct Explained<'s> {
     scene: &'s Scene,
     shapes: Shapes<'s>,
     pixel: PixelExplanation,
+    /// The one sample that is asked for.
+    only: Option<usize>,
 }
 
 /// Explains the pixel.
@@ -67,7 +73,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         let (width, height) = (scene.picture.width, scene.picture.height);
         Failure::usage(format!("--pixel: {x},{y} is outside of the picture of {width} × {height} pixels"))
     })?;
-    let explained = Explained { file: arguments.scene.name(), scene, shapes: Shapes::of(scene), pixel };
+    if let Some(sample) = arguments.sample.filter(|sample| !(1..=pixel.samples.len()).contains(sample)) {
+        return Err(Failure::usage(format!("--sample: there is no sample {sample}, but 1 to {}", pixel.samples.len())));
+    }
+    let explained = Explained { file: arguments.scene.name(), scene, shapes: Shapes::of(scene), pixel, only: arguments.sample };
     match arguments.json {
         true => output::print_json(&explained.json())?,
         false => output::print(&explained.text())?,
@@ -76,10 +85,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
 }
 
 impl Explained<'_> {
-    /// The colours of all kept samples, each times its weight, added up in order.
+    /// What all that is listed adds up to.
     fn sum(&self) -> Rgb {
-        let kept = self.pixel.samples.iter().filter_map(|sample| sample.weight.map(|weight| sample.color * weight));
-        kept.fold(Rgb::BLACK, |sum, color| sum + color)
+        self.pixel.sum()
     }
 
     /// True if the sum is the rendered colour, bit for bit.

@@ -103,6 +103,10 @@ impl Arguments {
         if std::env::current_dir().is_ok_and(|here| here != folder) {
             self.scene.move_to(folder);
         }
+        // What layers were asked for is for files that have any.
+        if !matches!(crate::target::format_of(&output), Ok(durer::imaging::FileFormat::Exr)) {
+            self.layers = LayerOptions::default();
+        }
         self.output = Some(output);
         self.crop = Some(film.region());
         self.saving.checkpoint = None;

@@ -262,8 +262,9 @@ impl<O: Observer> Path<'_, O> {
             let by_aiming = if light.is_point { f64::INFINITY } else { light.pdf };
             self.observer.weighing(&Weighing { by_surface: pdf, by_aiming, part });
             let mut arriving = light.light * visible * ((part / light.pdf) as f32);
-            // As it is for those who find the same light otherwise. (That of lamps comes undimmed, as under `whitted`.)
-            if let (Some(fog), false) = (&scene.fog, light.is_point) {
+            // As it is for those who find the same light otherwise. Lamps at infinity would not be seen through any fog, and
+            // nobody means that.
+            if let (Some(fog), true) = (&scene.fog, !light.is_point || light.distance.is_finite()) {
                 arriving = arriving * fog.veil(light.distance).visible;
             }
             self.add(Source::Light(light.lamp), scattered * arriving);
@@ -325,7 +326,7 @@ impl<O: Observer> Path<'_, O> {
     /// Adds light that arrives at the start of the last segment.
     fn add(&mut self, source: Source, light: Rgb) {
         let mut amount = self.state.weight * light;
-        if let (Some(most), true) = (self.tracer.clamp, self.state.depth > 1) {
+        if let (Some(most), false) = (self.tracer.clamp, source.is_direct(self.state.depth)) {
             let largest = amount.max_component();
             if largest > most {
                 amount = amount * (most / largest);

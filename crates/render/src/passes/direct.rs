@@ -34,13 +34,7 @@ impl Observer for Direct<'_> {
     }
 
     fn contribution(&mut self, source: Source, amount: Rgb) {
-        // The segment of depth 2 comes from the first surface: what gives light by itself at its end met that one alone.
-        let deepest = match source {
-            Source::Emission | Source::Background => 2,
-            Source::Fog | Source::Ambient | Source::Diffuse(_) | Source::Specular(_) | Source::Light(_) => 1,
-            Source::Shown => 1,
-        };
-        if self.depth <= deepest {
+        if source.is_direct(self.depth) {
             self.light += amount;
         }
     }

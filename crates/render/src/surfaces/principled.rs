@@ -8,6 +8,7 @@ use crate::bsdf::{Bsdf, Coat, Dielectric, Ggx, Layers, Principled, Sheen, Sheet,
 use crate::frame::Frame;
 use crate::shading::{Shading, Textured, within_one};
 use durer_math::Rgb;
+use durer_scene::Paint;
 
 /// What scatters light there, and the frame in which it does.
 pub(super) fn at(
@@ -44,6 +45,12 @@ pub(super) fn at(
         coat: coat(material, textured),
     };
     (frame, Bsdf::Principled(Principled::new(layers)))
+}
+
+/// True if all light that is not reflected at its boundary goes through, and nothing lies upon that.
+pub(super) fn is_clear_body(material: &durer_scene::Principled) -> bool {
+    let upon = [material.metallic, material.clearcoat, material.sheen_color];
+    material.transmission == Paint::Color(Rgb::WHITE) && !material.thin && upon.into_iter().all(is_zero)
 }
 
 fn through(

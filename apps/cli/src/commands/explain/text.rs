@@ -12,13 +12,26 @@ use durer::{
     Weighing,
 };
 
+/// More samples than this are only listed.
+const MOST_IN_FULL: usize = 4;
+
 impl Explained<'_> {
     /// The whole explanation.
     pub(super) fn text(&self) -> String {
         let mut page = Ledger::default();
         self.heading(&mut page);
+        let is_long = self.only.is_none() && self.pixel.is_mean && self.pixel.samples.len() > MOST_IN_FULL;
+        if is_long {
+            page.gap();
+            page.heading("its samples; `--sample 1` shows the path of the first");
+        }
         for (index, sample) in self.pixel.samples.iter().enumerate() {
-            self.sample(&mut page, index, sample);
+            if is_long {
+                let place = format!("sample {} at ({}, {})", index + 1, short(sample.at.x), short(sample.at.y));
+                page.amount(&place, sample.color);
+            } else if self.only.is_none_or(|only| only == index + 1) {
+                self.sample(&mut page, index, sample);
+            }
         }
         self.account(&mut page);
         page.into_text()
@@ -153,7 +166,8 @@ impl Explained<'_> {
     fn account(&self, page: &mut Ledger) {
         page.gap();
         if self.pixel.samples.len() > 1 {
-            page.amount("sum of all samples, each times what it counts", self.sum());
+            let what = if self.pixel.is_mean { "the mean of all samples" } else { "sum of all samples, each times what it counts" };
+            page.amount(what, self.sum());
         }
         page.amount("the pixel as rendered, in linear light", self.pixel.color);
         page.line(match self.sum_is_exact() {

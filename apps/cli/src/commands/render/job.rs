@@ -62,7 +62,7 @@ impl Job<'_> {
         let (arguments, show) = (self.arguments, self.manner.show());
         let interrupt = Interrupt::after(arguments.scene.time_limit());
         let path = arguments.output_path();
-        if arguments.saving.checkpoint.as_ref().is_some_and(|checkpoint| same_place(checkpoint, &path)) {
+        if arguments.saving.checkpoint.as_ref().is_some_and(|checkpoint| target::same_place(checkpoint, &path)) {
             return Err(Failure::usage("--checkpoint: the checkpoint cannot be the same file as the picture"));
         }
         let format = if target::is_film(&path) { None } else { Some(target::format_of(&path)?) };
@@ -388,15 +388,6 @@ fn fitting(checkpoint: Checkpoint, saver: &Saver<'_>, region: Region) -> Result<
         saver.found(&checkpoint.film);
     }
     Ok(checkpoint.film)
-}
-
-/// True if two paths, of files that need not be there, lead to the same place.
-fn same_place(a: &Path, b: &Path) -> bool {
-    let folder = |path: &Path| {
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
-    };
-    a.file_name() == b.file_name() && folder(a) == folder(b)
 }
 
 /// Of a pixel in a checkpoint.

@@ -7,7 +7,7 @@ use durer::imaging::{EncodeOptions, FileFormat};
 use durer::scene::Integrator;
 
 /// Options of film files.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 #[command(next_help_heading = "The file")]
 pub(super) struct LayerOptions {
     /// Layers of an EXR file: `all`, or names from beauty, albedo, normal, depth, position, uv, object_id, material_id and,
