@@ -103,4 +103,3 @@ pub(crate) fn same_place(a: &Path, b: &Path) -> bool {
     };
     a.file_name() == b.file_name() && folder(a) == folder(b)
 }
-

@@ -71,7 +71,7 @@ fn the_guide_tells_the_limits() {
             format!("| `{}` |", limit.key()),
             format!("| {} | {} |", limit.shown(all.get(*limit)), limit.shown(few.get(*limit))),
         ];
-        let row = guide.lines().find(|line| line.starts_with(&starts)).unwrap_or_else(|| panic!("no row {starts}"));
-        assert!(row.ends_with(&ends), "{row} should end with {ends}");
+        let told = guide.lines().any(|line| line.starts_with(&starts) && line.ends_with(&ends));
+        assert!(told, "no row {starts} ... {ends}");
     }
 }

@@ -6,7 +6,9 @@ use crate::eye::{SceneEye, begin};
 use crate::film::{Account, Part, PixelSums, Region, SampleRange, Sums};
 use crate::filter_sampling::FilterSampling;
 use crate::holes::Known;
-use crate::integrators::{Integrator as AnyIntegrator, ambient_occlusion::AmbientOcclusion, path::PathTracer, sharp::Sharp};
+use crate::integrators::{
+    Integrator as AnyIntegrator, ambient_occlusion::AmbientOcclusion, path::PathTracer, sharp::Sharp,
+};
 use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Scattering, Source, SurfaceSeen, Weighing};
 use crate::passes::Begun;
 use crate::reconstruct::{Reconstruction, color_of, normalize};
@@ -167,7 +169,9 @@ pub fn explain(scene: &CompiledScene, x: u32, y: u32) -> Option<PixelExplanation
         return None;
     }
     match scene.settings.integrator {
-        Integrator::Path { max_depth, clamp } => return explain_samples(scene, &PathTracer { max_depth, clamp }, (x, y)),
+        Integrator::Path { max_depth, clamp } => {
+            return explain_samples(scene, &PathTracer { max_depth, clamp }, (x, y));
+        }
         Integrator::AmbientOcclusion { distance } => {
             let distance = distance.unwrap_or(f64::INFINITY);
             return explain_samples(scene, &AmbientOcclusion { distance }, (x, y));

@@ -132,7 +132,9 @@ fn develop(arguments: &Arguments) -> Result<Exit, Failure> {
     let path = arguments.output_path();
     if target::same_place(&path, film) {
         let name = path.display();
-        return Err(Failure::usage(format!("-o: {name} is what is developed, and is not written over; name another file")));
+        return Err(Failure::usage(format!(
+            "-o: {name} is what is developed, and is not written over; name another file"
+        )));
     }
     let format = target::format_of(&path)?;
     let mut options = arguments.file.encode_options(format)?;

@@ -76,7 +76,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     if let Some(sample) = arguments.sample.filter(|sample| !(1..=pixel.samples.len()).contains(sample)) {
         return Err(Failure::usage(format!("--sample: there is no sample {sample}, but 1 to {}", pixel.samples.len())));
     }
-    let explained = Explained { file: arguments.scene.name(), scene, shapes: Shapes::of(scene), pixel, only: arguments.sample };
+    let explained =
+        Explained { file: arguments.scene.name(), scene, shapes: Shapes::of(scene), pixel, only: arguments.sample };
     match arguments.json {
         true => output::print_json(&explained.json())?,
         false => output::print(&explained.text())?,

@@ -47,7 +47,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     }
     if let Some(film) = paths.iter().find(|film| target::same_place(film, &arguments.output)) {
         let name = film.display();
-        return Err(Failure::usage(format!("-o: {name} is one of the films, and is not written over; name another file")));
+        return Err(Failure::usage(format!(
+            "-o: {name} is one of the films, and is not written over; name another file"
+        )));
     }
     let mut films = Vec::with_capacity(paths.len());
     let mut first = None;

@@ -166,7 +166,11 @@ impl Explained<'_> {
     fn account(&self, page: &mut Ledger) {
         page.gap();
         if self.pixel.samples.len() > 1 {
-            let what = if self.pixel.is_mean { "the mean of all samples" } else { "sum of all samples, each times what it counts" };
+            let what = if self.pixel.is_mean {
+                "the mean of all samples"
+            } else {
+                "sum of all samples, each times what it counts"
+            };
             page.amount(what, self.sum());
         }
         page.amount("the pixel as rendered, in linear light", self.pixel.color);
