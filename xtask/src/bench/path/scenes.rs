@@ -220,7 +220,7 @@ impl Scene {
             size = self.size,
         );
         text += &match self.environment {
-            Some(file) => format!("background: {{image: {file}}}\n"),
+            Some(file) => format!("background: {{image: {file}, rotation: -90}}\n"),
             None => "background: black\n".to_owned(),
         };
         text += "materials:\n";
