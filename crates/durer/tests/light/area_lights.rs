@@ -72,3 +72,29 @@ fn the_dark_side() {
     let (found, _) = crate::support::pixel(DIRECT, 16, &floor(&light("[0, 1, 0]")));
     assert!(found.is_black(), "{found:?}");
 }
+
+/// Glass bends light, so lamps are not seen through it; where it is but half there, half of their light gets past each of its
+/// two surfaces, whether a number says so or a texture.
+#[test]
+fn glass_that_is_half_there() {
+    let lit = |ball: &str| {
+        let light = format!("point: {{position: [0, 4, 0], intensity: 1}}\nobjects:\n  {ball}");
+        let floor =
+            "- rectangle: {corner: [-1, 0, 1], edges: [[2, 0, 0], [0, 0, -2]], material: {matte: {color: 0.5}}}";
+        let text = format!(
+            "camera: {{position: [0, 0.01, 0], look_at: [0, 0, 0], up: [0, 0, 1], orthographic: {{height: 0.0001}}}}\n\
+             background: black\n\
+             textures: {{half: {{checker: {{colors: [0.5, 0.5], size: 1}}}}}}\n\
+             lights:\n  - {light}\n  {floor}\n"
+        );
+        f64::from(crate::support::pixel(DIRECT, 4, &text).0.g)
+    };
+    let ball = |opacity: &str| {
+        format!("- sphere: {{center: [0, 2, 0], radius: 0.5, material: {{glass: {{ior: 1.5, opacity: {opacity}}}}}}}")
+    };
+    assert!((lit("") - 0.5).abs() < 1e-6);
+    for (opacity, expected) in [("1", 0.0), ("0.5", 0.125), ("half", 0.125), ("0.9", 0.005)] {
+        let found = lit(&ball(opacity));
+        assert!((found - expected).abs() < 1e-6, "{opacity}: {found}, not {expected}");
+    }
+}

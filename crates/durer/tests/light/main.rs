@@ -6,6 +6,7 @@
 
 mod area_lights;
 mod cornell;
+mod explained;
 mod furnaces;
 mod many_ways;
 mod support;
