@@ -3,9 +3,9 @@
 //! A piece is known by its element: the first of the parts that belong to it.
 
 use super::{Kind, Primitive, Surface};
-use crate::shapes::Shape;
 use crate::Ray;
 use crate::sample::{Aim, Extent, Piece, Shows};
+use crate::shapes::Shape;
 use durer_math::{DAffine3, DMat3, DVec2, DVec3};
 
 /// How far, relative to the distance, a point may seem to be from the crossing that it is.
