@@ -140,9 +140,19 @@ pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
         settings: scene.render,
     };
     if looks_for_light(&scene.render) {
-        compiled.emitters = Emitters::of(&compiled);
+        compiled.emitters = Emitters::of(&compiled, &mean_emission(scene));
     }
     compiled
+}
+
+/// The mean luminance of the emission of each material, wherever its texture is taken from; the default material's is last.
+fn mean_emission(scene: &Scene) -> Vec<f64> {
+    let mut means = Means::new(scene);
+    let mean = |material: &durer_scene::Material| {
+        let durer_scene::Emission { color, strength, .. } = material.emission;
+        f64::from((means.of(color) * strength).luminance()).max(0.0)
+    };
+    scene.materials.iter().chain([&durer_scene::Material::default()]).map(mean).collect()
 }
 
 /// True if there is use for knowing all that gives light.

@@ -1,10 +1,12 @@
 //! Shapes that give off light: aimed at element by element (see [`durer_geometry::Primitive::each_element`]).
 
+mod textured;
+
 use super::LightSample;
 use super::tree::{Cone, Faces, Item};
 use crate::compile::CompiledScene;
 use crate::shading::Shading;
-use durer_geometry::{Aim, Crossing, Extent, Hit, Primitive, Ray};
+use durer_geometry::{Aim, Crossing, Hit, Ray};
 use durer_math::{DVec2, DVec3, Rgb};
 use durer_scene::{Emission, Paint, Sides};
 use rayon::prelude::*;
@@ -27,8 +29,9 @@ struct Element {
 }
 
 impl Shapes {
-    /// Those of a scene, and what the tree needs to know of each; ids are their indices.
-    pub(super) fn of(scene: &CompiledScene) -> (Shapes, Vec<Item>) {
+    /// Those of a scene, and what the tree needs to know of each; ids are their indices. `means` are the mean luminances that
+    /// the emission of each material has all over its texture.
+    pub(super) fn of(scene: &CompiledScene, means: &[f64]) -> (Shapes, Vec<Item>) {
         let glows = |material: u32| scene.materials[material as usize].emission.is_some();
         let any_glows = (0..scene.materials.len() as u32).any(glows);
         let mut elements = Vec::new();
@@ -46,7 +49,9 @@ impl Shapes {
                 });
             }
         }
-        let item = |(id, element): (usize, &Element)| item(scene, element, id as u32);
+        let is_uneven = |element: &&Element| even_light(scene, element).is_none();
+        let looks = textured::looks(elements.par_iter().filter(is_uneven).count());
+        let item = |(id, element): (usize, &Element)| item(scene, means, looks, element, id as u32);
         let items = elements.par_iter().enumerate().filter_map(item).collect();
         (Shapes { elements }, items)
     }
@@ -97,15 +102,26 @@ fn given_off(scene: &CompiledScene, primitive: u32, aim: &Aim, from: DVec3) -> R
     shading.opacity.map_or(shading.emission, |opacity| shading.emission * opacity)
 }
 
-/// What the tree needs to know; `None` for what has no area or no light.
-fn item(scene: &CompiledScene, &Element { primitive, element }: &Element, id: u32) -> Option<Item> {
-    let emission = emission_of(scene, primitive, element)?;
-    let shape = &scene.world.primitives()[primitive as usize];
-    let extent = shape.extent(element)?;
+/// What an element gives off, if that is the same everywhere on it.
+fn even_light(scene: &CompiledScene, &Element { primitive, element }: &Element) -> Option<Rgb> {
     let material = &scene.materials[scene.material_at(&hit_of(primitive, element)) as usize];
-    let luminance = match (emission.color, material.opacity) {
-        (Paint::Color(color), None) => f64::from((color * emission.strength).luminance()),
-        _ => mean_luminance(scene, shape, &extent, primitive, element),
+    match (material.emission?.color, material.opacity) {
+        (Paint::Color(color), None) => Some(color * material.emission?.strength),
+        (Paint::Color(_) | Paint::Texture(_), _) => None,
+    }
+}
+
+/// What the tree needs to know; `None` for what has no area or no light.
+fn item(scene: &CompiledScene, means: &[f64], looks: u32, element: &Element, id: u32) -> Option<Item> {
+    let Element { primitive, element: number } = *element;
+    let emission = emission_of(scene, primitive, number)?;
+    let extent = scene.world.primitives()[primitive as usize].extent(number)?;
+    let luminance = match even_light(scene, element) {
+        Some(light) => f64::from(light.luminance()),
+        None => {
+            let mean = means[scene.material_at(&hit_of(primitive, number)) as usize];
+            textured::luminance(scene, element, &extent, mean, looks)
+        }
     };
     let faces = match (emission.sides, extent.is_closed) {
         (Sides::Front, _) => Faces::Front,
@@ -123,35 +139,4 @@ fn item(scene: &CompiledScene, &Element { primitive, element }: &Element, id: u3
 
 fn hit_of(primitive: u32, part: u32) -> Hit {
     Hit { crossing: Crossing { t: 0.0, part }, primitive }
-}
-
-/// The mean of what is given off where textures decide, by a few looks from outside: two at what is flat, from both sides.
-fn mean_luminance(scene: &CompiledScene, shape: &Primitive, extent: &Extent, primitive: u32, element: u32) -> f64 {
-    const AWAY: f64 = 4.0;
-    let (middle, size) = (extent.bounds.center(), extent.bounds.size().length().max(f64::MIN_POSITIVE));
-    let (flat, round);
-    let (ways, looks): (&[DVec3], u32) = match extent.normal {
-        Some(normal) => {
-            flat = [normal, -normal];
-            (&flat, 4)
-        }
-        None => {
-            round = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
-            (&round, 8)
-        }
-    };
-    let (mut sum, mut count) = (0.0, 0.0);
-    for &way in ways {
-        let from = middle + way * (AWAY * size);
-        for look in 0..looks {
-            // Points of Hammersley's.
-            let across = (f64::from(look) + 0.5) / f64::from(looks);
-            let up = (f64::from(look.reverse_bits()) + 0.5) / 4_294_967_296.0 + 0.5 / f64::from(looks);
-            if let Some(aim) = shape.aim(element, from, DVec2::new(across, up.min(0.999))) {
-                sum += f64::from(given_off(scene, primitive, &aim, from).luminance());
-                count += 1.0;
-            }
-        }
-    }
-    if count > 0.0 { sum / count } else { 0.0 }
 }
