@@ -8,7 +8,7 @@ use crate::compile::CompiledScene;
 use crate::shading::Shading;
 use durer_geometry::{Aim, Crossing, Hit, Ray};
 use durer_math::{DVec2, DVec3, Rgb};
-use durer_scene::{Emission, Paint, Sides};
+use durer_scene::{Emission, Integrator, Paint, Sides};
 use rayon::prelude::*;
 
 /// More elements than this are not aimed at, which a path that meets them by chance makes up for.
@@ -36,14 +36,17 @@ impl Shapes {
         let any_glows = (0..scene.materials.len() as u32).any(glows);
         let mut elements = Vec::new();
         if any_glows {
+            let hidden = may_be_hidden(scene);
             for (id, primitive) in (0_u32..).zip(scene.world.primitives()) {
                 let parts = scene.details(id).is_some();
                 if !parts && !glows(scene.objects[id as usize].looks.material) {
                     continue;
                 }
+                let is_medium = hidden && scene.objects[id as usize].looks.is_medium;
                 primitive.each_element(&mut |element| {
                     let glows = emission_of(scene, id, element).is_some();
-                    if glows && elements.len() < MOST {
+                    let is_hidden = is_medium && is_only_a_boundary(scene, id, element);
+                    if glows && !is_hidden && elements.len() < MOST {
                         elements.push(Element { primitive: id, element });
                     }
                 });
@@ -79,6 +82,17 @@ impl Shapes {
         let Aim { direction, distance, pdf, .. } = aim;
         (!light.is_black()).then_some(LightSample { direction, distance, light, pdf, is_point: false, lamp: None })
     }
+}
+
+/// True if boundaries of media may lie in other media that hide them: where they glow, who aims at them would have to know. So
+/// they are found by chance. (Classic light goes by shapes alone.)
+fn may_be_hidden(scene: &CompiledScene) -> bool {
+    let media = scene.objects.iter().filter(|object| object.looks.is_medium);
+    matches!(scene.settings.integrator, Integrator::Path { .. }) && media.take(2).count() > 1
+}
+
+fn is_only_a_boundary(scene: &CompiledScene, primitive: u32, part: u32) -> bool {
+    scene.scatterings[scene.material_at(&hit_of(primitive, part)) as usize].is_only_a_boundary()
 }
 
 /// What glows of a part, if anything does.
