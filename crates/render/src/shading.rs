@@ -199,13 +199,36 @@ impl<'a> Shading<'a> {
     }
 
     /// Between the normal and the direction to a light; not positive for a light behind the surface, whatever normal
-    /// shading has.
+    /// shading has. Where that ends before the normal's own half of space does, it goes to 0 [smoothly](Shading::kept).
     pub(crate) fn cosine(&self, to_light: DVec3) -> f64 {
         let above = self.face.dot(to_light);
         match self.smooth {
-            Some(normal) if above > 0.0 => normal.dot(to_light),
+            Some(normal) if above > 0.0 => normal.dot(to_light) * self.kept(to_light),
             Some(_) | None => above,
         }
+    }
+
+    /// What is kept of light from a direction before the surface where shading has a normal of its own; 1 where it has not, and
+    /// in most directions where it has.
+    ///
+    /// A surface whose normal leans to a light still turns black where the light sinks behind its true plane: on meshes triangle by
+    /// triangle, on relief along hard lines. So light is taken away little by little before that, as from a surface that shadows
+    /// itself: Chiang, Li and Burley, "Taming the Shadow Terminator", SIGGRAPH 2019 Talks. Nothing is moved, so nothing leaks
+    /// through what touches, and nothing gives back more than it gets; and both ways to find light take the same away.
+    #[inline]
+    pub(crate) fn kept(&self, direction: DVec3) -> f64 {
+        let Some(normal) = self.smooth else { return 1.0 };
+        let above = self.face.dot(direction);
+        let most = normal.dot(direction) * normal.dot(self.face);
+        if above <= 0.0 {
+            return 0.0;
+        }
+        if above >= most {
+            return 1.0;
+        }
+        // The paper's ratio of cosines, and its curve, which is flat where the ratio gets to 1.
+        let open = above / most;
+        open * (1.0 + open * (1.0 - open))
     }
 }
 
@@ -257,6 +280,9 @@ pub(crate) fn opacity_at(scene: &CompiledScene, hit: &Hit, surface: &Surface) ->
     let material = &scene.materials[scene.material_at(hit) as usize];
     material.opacity.map_or(Rgb::WHITE, |paint| Textured { scene, object, surface, hit }.opacity(paint))
 }
+
+#[cfg(test)]
+mod terminator;
 
 #[cfg(test)]
 mod tests {

@@ -179,13 +179,17 @@ impl<O: Observer> Path<'_, O> {
         let Some(scattered) = bsdf.sample(out, lobe, self.sampler.two(step, Purpose::Direction)) else {
             return false;
         };
-        self.state.weight *= scattered.weight;
-        self.state.scale *= scattered.scale;
         let passes = scattered.direction.z < 0.0;
         let direction = frame.to_world(scattered.direction).normalize();
+        let mut weight = scattered.weight;
+        if let (How::Spread { .. }, false) = (scattered.how, passes) {
+            weight = weight * shading.kept(direction) as f32;
+        }
+        self.state.weight *= weight;
+        self.state.scale *= scattered.scale;
         let pdf = if let How::Spread { pdf } = scattered.how { Some(pdf) } else { None };
         let survival = self.survival();
-        self.observer.scattering(&Scattering { direction, pdf, weight: scattered.weight, survival });
+        self.observer.scattering(&Scattering { direction, pdf, weight, survival });
         if !self.survives(survival) {
             return false;
         }
@@ -247,9 +251,12 @@ impl<O: Observer> Path<'_, O> {
         let at = self.sampler.two(step, Purpose::LightPoint);
         let Some(light) = scene.emitters.sample(scene, receiver, choice, at) else { return };
         let toward = frame.to_local(light.direction);
-        let (scattered, pdf) = bsdf.evaluate(out, toward);
+        let (mut scattered, pdf) = bsdf.evaluate(out, toward);
         let mut visible = Rgb::BLACK;
         let passes = toward.z < 0.0;
+        if !passes {
+            scattered = scattered * shading.kept(light.direction) as f32;
+        }
         if !scattered.is_black() && shading.is_on_far_side(light.direction) == passes {
             self.observer.shadow_ray();
             let ray = if passes { shading.ray_on(light.direction) } else { shading.ray_back(light.direction) };

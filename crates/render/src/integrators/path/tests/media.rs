@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::integrators::whitted::Whitted;
+use durer_math::functions;
 use durer_scene::{Attenuation, Falloff, Fog, MaterialId};
 
 /// What glows with this radiance and gives back nothing.
@@ -52,9 +53,9 @@ fn exponential(distance: f64, color: f32) -> Option<Fog> {
 /// Light L at a distance d behind fog of color c is L e + c (1 - e) with e = exp(-d/D).
 #[test]
 fn fog_veils_what_glows() {
-    for (distance, expected) in [(5.0, 3.0), (10.0, 20.0)] {
-        let e = (-distance / expected as f64).exp();
-        let scene = Scene { fog: exponential(expected, 0.25), ..before(vec![glowing(2.0)], vec![wall(distance, 0)]) };
+    for (distance, thickness) in [(5.0, 3.0), (10.0, 20.0)] {
+        let e = f64::from(functions::exp((-distance / thickness) as f32));
+        let scene = Scene { fog: exponential(thickness, 0.25), ..before(vec![glowing(2.0)], vec![wall(distance, 0)]) };
         shows(&scene, 4, 2.0 * e + 0.25 * (1.0 - e), 1e-5);
     }
 }
@@ -72,7 +73,7 @@ fn fog_veils_lamps_and_lights_what_is_in_it() {
         lights: vec![lamp],
         ..before(vec![matte(Rgb::WHITE)], vec![plane])
     };
-    let e = |length: f64| (-length / distance).exp();
+    let e = |length: f64| f64::from(functions::exp((-length / distance) as f32));
     let at_wall = 4.0 * e(2.0) / 4.0 / std::f64::consts::PI + color;
     shows(&scene, 4000, at_wall * e(5.0) + color * (1.0 - e(5.0)), 1e-3);
 }
