@@ -188,8 +188,7 @@ impl Emitters {
         if probability <= 0.0 {
             return 0.0;
         }
-        let primitive = &scene.world.primitives()[hit.primitive as usize];
-        probability * primitive.pdf_of_aim(receiver.point, surface.point, hit.crossing.part)
+        probability * self.shapes.pdf(scene, id as usize, receiver.point, surface.point, hit.crossing.part)
     }
 
     /// The density with which [`Emitters::sample`] finds this direction of the background.

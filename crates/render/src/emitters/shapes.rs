@@ -6,7 +6,7 @@ use super::LightSample;
 use super::tree::{Cone, Faces, Item};
 use crate::compile::CompiledScene;
 use crate::shading::Shading;
-use durer_geometry::{Aim, Crossing, Hit, Ray};
+use durer_geometry::{Aim, Aimable, Crossing, Hit, Ray};
 use durer_math::{DVec2, DVec3, Rgb};
 use durer_scene::{Emission, Integrator, Paint, Sides};
 use rayon::prelude::*;
@@ -19,6 +19,19 @@ const MOST: usize = 1 << 23;
 pub(crate) struct Shapes {
     /// In ascending order.
     elements: Vec<Element>,
+    /// What can be known of each before it is aimed at; of none if they are more than [`MOST_READY`].
+    ready: Vec<Option<Ready>>,
+}
+
+/// For more elements than this, what is known of them is found out anew each time they are aimed at: memory.
+const MOST_READY: usize = 1 << 16;
+
+/// What can be known of an element before it is aimed at.
+#[derive(Clone, Copy, Debug)]
+struct Ready {
+    aimable: Aimable,
+    /// Radiance and sides, if they are the same all over it.
+    plain: Option<(Rgb, Sides)>,
 }
 
 /// Something that is aimed at as a whole.
@@ -56,7 +69,11 @@ impl Shapes {
         let looks = textured::looks(elements.par_iter().filter(is_uneven).count());
         let item = |(id, element): (usize, &Element)| item(scene, means, looks, element, id as u32);
         let items = elements.par_iter().enumerate().filter_map(item).collect();
-        (Shapes { elements }, items)
+        let ready = match elements.len() <= MOST_READY {
+            true => elements.iter().map(|&element| Ready::of(scene, element)).collect(),
+            false => Vec::new(),
+        };
+        (Shapes { elements, ready }, items)
     }
 
     /// How many there are.
@@ -76,11 +93,36 @@ impl Shapes {
 
     /// A point on one of them, and what it gives off from there to a point; `None` if that is nothing.
     pub(crate) fn aim(&self, scene: &CompiledScene, index: usize, from: DVec3, at: DVec2) -> Option<LightSample> {
-        let Element { primitive, element } = self.elements[index];
-        let aim = scene.world.primitives()[primitive as usize].aim(element, from, at)?;
-        let light = given_off(scene, primitive, &aim, from);
+        let Element { primitive, .. } = self.elements[index];
+        let Ready { aimable, plain } = match self.ready.get(index) {
+            Some(ready) => ready.as_ref()?,
+            None => &Ready::of(scene, self.elements[index])?,
+        };
+        let aim = scene.world.primitives()[primitive as usize].aim(aimable, from, at)?;
+        let light = match plain {
+            Some((light, sides)) if *sides == Sides::Both || aim.direction.dot(aim.surface.normal) < 0.0 => *light,
+            Some(_) => return None,
+            None => given_off(scene, primitive, &aim, from),
+        };
         let Aim { direction, distance, pdf, .. } = aim;
         (!light.is_black()).then_some(LightSample { direction, distance, light, pdf, is_point: false, lamp: None })
+    }
+
+    /// The density, per solid angle, with which [`Shapes::aim`] finds a point on one of them.
+    pub(super) fn pdf(&self, scene: &CompiledScene, index: usize, from: DVec3, point: DVec3, part: u32) -> f64 {
+        match self.ready.get(index) {
+            Some(ready) => ready.as_ref().map_or(0.0, |ready| ready.aimable.pdf(from, point, part)),
+            None => Ready::of(scene, self.elements[index]).map_or(0.0, |ready| ready.aimable.pdf(from, point, part)),
+        }
+    }
+}
+
+impl Ready {
+    fn of(scene: &CompiledScene, Element { primitive, element }: Element) -> Option<Ready> {
+        let aimable = scene.world.primitives()[primitive as usize].aimable(element)?;
+        let sides = emission_of(scene, primitive, element)?.sides;
+        let plain = even_light(scene, &Element { primitive, element }).map(|light| (light, sides));
+        Some(Ready { aimable, plain })
     }
 }
 
@@ -104,14 +146,6 @@ fn emission_of(scene: &CompiledScene, primitive: u32, part: u32) -> Option<Emiss
 /// The radiance from a point on a primitive to one that sees it; of what is but partly there, that part.
 fn given_off(scene: &CompiledScene, primitive: u32, aim: &Aim, from: DVec3) -> Rgb {
     let hit = Hit { crossing: Crossing { t: aim.distance, part: aim.part }, primitive };
-    let material = &scene.materials[scene.material_at(&hit) as usize];
-    let Some(emission) = material.emission else { return Rgb::BLACK };
-    if !material.glows(aim.direction.dot(aim.surface.normal) < 0.0) {
-        return Rgb::BLACK;
-    }
-    if let (Paint::Color(color), None) = (emission.color, material.opacity) {
-        return color * emission.strength;
-    }
     let shading = Shading::at(scene, &Ray { origin: from, direction: aim.direction }, &hit);
     shading.opacity.map_or(shading.emission, |opacity| shading.emission * opacity)
 }

@@ -33,6 +33,7 @@ pub(super) fn luminance(scene: &CompiledScene, element: &Element, extent: &Exten
     let ways: &[DVec3] = flat.as_ref().map_or(&round, |flat| flat);
     let each = looks.div_ceil(ways.len() as u32);
     let shape = &scene.world.primitives()[element.primitive as usize];
+    let Some(aimable) = shape.aimable(element.element) else { return 0.0 };
     let (mut sum, mut count) = (0.0, 0.0);
     for &way in ways {
         let from = middle + way * (AWAY * size);
@@ -40,7 +41,7 @@ pub(super) fn luminance(scene: &CompiledScene, element: &Element, extent: &Exten
             // Points of Hammersley's.
             let across = (f64::from(look) + 0.5) / f64::from(each);
             let up = (f64::from(look.reverse_bits()) + 0.5) / 4_294_967_296.0;
-            if let Some(aim) = shape.aim(element.element, from, DVec2::new(across, up)) {
+            if let Some(aim) = shape.aim(&aimable, from, DVec2::new(across, up)) {
                 sum += f64::from(given_off(scene, element.primitive, &aim, from).luminance());
                 count += 1.0;
             }
