@@ -154,7 +154,7 @@ fn given_off(scene: &CompiledScene, primitive: u32, aim: &Aim, from: DVec3) -> R
 fn even_light(scene: &CompiledScene, &Element { primitive, element }: &Element) -> Option<Rgb> {
     let material = &scene.materials[scene.material_at(&hit_of(primitive, element)) as usize];
     match (material.emission?.color, material.opacity) {
-        (Paint::Color(color), None) => Some(color * material.emission?.strength),
+        (Paint::Color(color), None) if !material.is_unlit => Some(color * material.emission?.strength),
         (Paint::Color(_) | Paint::Texture(_), _) => None,
     }
 }

@@ -178,6 +178,46 @@ fn half_clear_bodies_in_glass_vanish_in_a_white_sky() {
     }
 }
 
+/// What shows nothing but ambient light, as unlit things of glTF do, shows its color here, too; in mirrors as well.
+#[test]
+fn unlit_things_show_their_color() {
+    let color = Rgb::new(0.5, 0.25, 1.0);
+    let unlit = Classic { color: Paint::Color(color), ambient: 1.0, diffuse: 0.0, ..Classic::default() };
+    let mut scene = before(vec![Material::of(MaterialKind::Classic(unlit))], vec![wall(5.0, 0)]);
+    assert_eq!(mean(&compile(&scene.clone().check().unwrap()), 4), color);
+    scene.ambient = Rgb::new(0.5, 0.5, 0.25);
+    assert_eq!(mean(&compile(&scene.check().unwrap()), 4), color * Rgb::new(0.5, 0.5, 0.25));
+}
+
+/// A pane with a picture on it that is brighter than white lets as much pass as one with a white picture.
+#[test]
+fn bright_pictures_on_panes_take_nothing_from_what_passes() {
+    let texels = durer_imaging::Texels::F32(vec![[20.0; 3]]);
+    let bitmap = durer_imaging::Bitmap { width: 1, height: 1, texels, alpha: None };
+    let image = durer_scene::ImageTexture {
+        image: durer_scene::ImageId(0),
+        mapping: Default::default(),
+        wrap: durer_scene::Wrap::Repeat,
+        filter: durer_scene::Filter::Nearest,
+        encoding: durer_scene::Encoding::Linear,
+        channels: Default::default(),
+        tint: Rgb::WHITE,
+    };
+    let pattern = durer_scene::Pattern::Image(image);
+    let pane = Classic {
+        color: Paint::Texture(durer_scene::TextureId(0)),
+        transparency: Rgb::gray(0.5),
+        diffuse: 1.0,
+        ..Classic::default()
+    };
+    let mut scene =
+        before(vec![glowing(2.0), Material::of(MaterialKind::Classic(pane))], vec![wall(9.0, 0), wall(5.0, 1)]);
+    scene.textures = vec![durer_scene::Texture { name: None, pattern, transform: Default::default() }];
+    let bitmap = std::sync::Arc::new(bitmap);
+    scene.images = vec![durer_scene::ImageAsset { file: "bright.exr".to_owned(), bitmap }];
+    shows(&scene, 2000, 1.0, 0.05);
+}
+
 /// The clamp leaves what comes from one surface: the lamp itself, its mirror image, what it lights; and holds what comes by two.
 #[test]
 fn the_clamp_holds_only_what_comes_by_several_surfaces() {
