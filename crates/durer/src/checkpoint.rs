@@ -19,6 +19,8 @@ pub struct Checkpoint {
     pub origin: Origin,
     /// The scene that it is a picture of.
     pub scene: SceneHash,
+    /// The seconds that it has taken so far; 0 if it is finished.
+    pub seconds: f64,
     /// What is finished.
     pub film: Film,
 }

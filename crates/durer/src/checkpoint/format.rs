@@ -3,22 +3,23 @@
 use super::{Checkpoint, CheckpointError, Origin};
 use crate::SceneHash;
 use durer_math::{DVec2, Rgb};
-use durer_render::{BadSample, Film, FilmParts, Part, RayCounts, Region, SampleRange, Sums};
+use durer_render::{BadSample, Calm, Film, FilmParts, Part, RayCounts, Region, SampleRange, Sums};
 use twox_hash::XxHash3_128;
 
 /// How files begin. The last three bytes are changed by programs that take the file for a text.
 const MAGIC: &[u8; 8] = b"durer\x1a\r\n";
 
 /// Of the format.
-pub(super) const VERSION: u32 = 2;
+pub(super) const VERSION: u32 = 3;
 
 /// Bytes of a hash.
 const HASH: usize = 16;
 
 const MADE_BY: &str = env!("CARGO_PKG_VERSION");
 
-/// The bytes of a checkpoint.
-pub fn encode_checkpoint(origin: &Origin, scene: &SceneHash, film: &Film) -> Vec<u8> {
+/// The bytes of a checkpoint. The seconds are those that the film has taken so far; of a finished one they are not kept, since
+/// films with the same samples have the same bytes.
+pub fn encode_checkpoint(origin: &Origin, scene: &SceneHash, film: &Film, seconds: f64) -> Vec<u8> {
     let mut out = Vec::with_capacity(most_bytes(film));
     out.extend_from_slice(MAGIC);
     out.extend_from_slice(&VERSION.to_le_bytes());
@@ -31,6 +32,8 @@ pub fn encode_checkpoint(origin: &Origin, scene: &SceneHash, film: &Film) -> Vec
         text(&mut out, name);
         out.extend_from_slice(&hash.to_le_bytes());
     }
+    let seconds = if film.is_complete() { 0.0 } else { seconds };
+    out.extend_from_slice(&seconds.to_le_bytes());
     put_film(&mut out, film);
     let checksum = XxHash3_128::oneshot(&out);
     out.extend_from_slice(&checksum.to_le_bytes());
@@ -45,7 +48,8 @@ fn text(out: &mut Vec<u8>, text: &str) {
 /// Of a film, and of all else that is not unusually long.
 fn most_bytes(film: &Film) -> usize {
     let pixel = film.sums().map_or(13, |sums| if sums.direct.is_empty() { SUMS } else { SUMS + 48 });
-    pixel * film.pixels().len() + film.finished_tiles().len() + 4096
+    let cells = film.sums().map_or(0, |sums| sums.calm.len() * CALM);
+    pixel * film.pixels().len() + cells + film.finished_tiles().len() + 4096
 }
 
 fn put_region(out: &mut Vec<u8>, Region { x, y, width, height }: Region) {
@@ -78,6 +82,8 @@ fn put_film(out: &mut Vec<u8>, film: &Film) {
 
 /// Bytes of the sums of a pixel.
 const SUMS: usize = 4 + 2 * 4 + 3 * 16 + 16;
+/// Of what is known of the noise of a cell.
+const CALM: usize = 4 + 1 + 4;
 
 fn put_sums(out: &mut Vec<u8>, sums: &Sums) {
     out.extend_from_slice(&(sums.parts.len() as u32).to_le_bytes());
@@ -85,6 +91,12 @@ fn put_sums(out: &mut Vec<u8>, sums: &Sums) {
         put_region(out, *region);
         out.extend_from_slice(&samples.start.to_le_bytes());
         out.extend_from_slice(&samples.end.to_le_bytes());
+    }
+    out.extend_from_slice(&(sums.calm.len() as u32).to_le_bytes());
+    for Calm { samples, passes, first } in &sums.calm {
+        out.extend_from_slice(&samples.to_le_bytes());
+        out.push(*passes);
+        out.extend_from_slice(&first.to_le_bytes());
     }
     let counts = sums.taken.iter().chain(sums.counts.as_flattened());
     counts.for_each(|count| out.extend_from_slice(&count.to_le_bytes()));
@@ -168,7 +180,13 @@ impl<'a> Input<'a> {
     fn checkpoint(&mut self) -> Option<Checkpoint> {
         let origin = Origin { folder: self.text()?, words: self.list(Input::text)? };
         let parts = self.list(|input| Some((input.text()?, u128::from_le_bytes(input.array()?))))?;
-        Some(Checkpoint { origin, scene: SceneHash { parts }, film: self.film()? })
+        let seconds = Some(f64::from_le_bytes(self.array()?)).filter(|seconds| seconds.is_finite() && *seconds >= 0.0)?;
+        let film = self.film()?;
+        // A finished film has one form.
+        if film.is_complete() && seconds.to_bits() != 0 {
+            return None;
+        }
+        Some(Checkpoint { origin, scene: SceneHash { parts }, seconds, film })
     }
 
     fn film(&mut self) -> Option<Film> {
@@ -206,6 +224,10 @@ impl<'a> Input<'a> {
             let region = input.region()?;
             Some(Part { region, samples: SampleRange { start: input.u32()?, end: input.u32()? } })
         })?;
+        let calm = self.list(|input| {
+            let (samples, [passes], first) = (input.u32()?, input.array()?, input.u32()?);
+            Some(Calm { samples, passes, first })
+        })?;
         let pixels = region.pixels();
         let numbers =
             |bytes: &[u8]| bytes.as_chunks().0.iter().map(|&bytes| u32::from_le_bytes(bytes)).collect::<Vec<_>>();
@@ -218,6 +240,7 @@ impl<'a> Input<'a> {
             colors: amounts(self.bytes(pixels.checked_mul(48)?)?).as_chunks().0.to_vec(),
             direct: amounts(self.bytes(if has_direct { pixels.checked_mul(48)? } else { 0 })?).as_chunks().0.to_vec(),
             squares: amounts(self.bytes(pixels.checked_mul(16)?)?),
+            calm,
         };
         // All sums of so many pixels are there, so that there are not too many tiles either.
         let finished = vec![is_finished; usize::try_from(region.tile_count()).ok()?];
