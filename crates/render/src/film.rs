@@ -9,7 +9,7 @@ use durer_imaging::Image;
 use durer_math::{DVec2, Rgb};
 use std::cmp::Ordering::Equal;
 
-pub use merge::MergeError;
+pub use merge::{FilmOutline, MergeError, Merging};
 pub use region::Region;
 pub(crate) use region::TILE;
 pub use sums::{Calm, Part, SampleRange, Sums};

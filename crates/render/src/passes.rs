@@ -64,9 +64,9 @@ pub(crate) fn render_samples<I: Integrator>(
         }
         let in_time = clock.most_samples(progress.elapsed(), film);
         let pass = match noise {
-            Some(noise) => next_where_noise_is(film, goal, in_time, |film| {
-                Cells::new(noise, film, &around, scene.picture_size())
-            }),
+            Some(noise) => {
+                next_where_noise_is(film, goal, in_time, |film| Cells::new(noise, film, &around, scene.picture_size()))
+            }
             None => next_of_all(film, goal, in_time),
         };
         let Some(pass) = pass else {

@@ -180,7 +180,8 @@ impl<'a> Input<'a> {
     fn checkpoint(&mut self) -> Option<Checkpoint> {
         let origin = Origin { folder: self.text()?, words: self.list(Input::text)? };
         let parts = self.list(|input| Some((input.text()?, u128::from_le_bytes(input.array()?))))?;
-        let seconds = Some(f64::from_le_bytes(self.array()?)).filter(|seconds| seconds.is_finite() && *seconds >= 0.0)?;
+        let seconds =
+            Some(f64::from_le_bytes(self.array()?)).filter(|seconds| seconds.is_finite() && *seconds >= 0.0)?;
         let film = self.film()?;
         // A finished film has one form.
         if film.is_complete() && seconds.to_bits() != 0 {

@@ -161,7 +161,9 @@ impl Sums {
             taken.iter().zip(counts).all(|(taken, [a, b])| a.checked_add(*b).is_some_and(|sum| sum <= *taken));
         let is_begun = |part: &Part| part.region == region && taken.iter().all(|&taken| taken <= part.samples.count());
         let judged = calm.is_empty()
-            || !is_finished && calm.len() as u64 == region.cell_count(CELL) && calm.iter().all(|calm| calm.passes <= PASSES);
+            || !is_finished
+                && calm.len() as u64 == region.cell_count(CELL)
+                && calm.iter().all(|calm| calm.passes <= PASSES);
         all_there
             && judged
             && squares.iter().all(|&square| square >= 0)

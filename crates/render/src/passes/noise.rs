@@ -205,8 +205,8 @@ impl<'a> Cells<'a> {
             let taken = &mut goals[self.region.index_of(x, y)];
             *taken = goal.max(*taken);
         }
-        let expected: u64 =
-            restless.iter().map(|&index| self.expected(&self.cells[index], most)).sum::<u64>() + self.taken_by_calm(&restless);
+        let expected: u64 = restless.iter().map(|&index| self.expected(&self.cells[index], most)).sum::<u64>()
+            + self.taken_by_calm(&restless);
         Some((goals, expected))
     }
 

@@ -165,9 +165,9 @@ fn parts_make_the_film_of_one_run() {
     let some = Film::merge(&parts[..3]).unwrap();
     let shuffled = Film::merge(&[parts[2].clone(), parts[0].clone(), parts[1].clone()]).unwrap();
     assert_eq!(some, shuffled);
-    let missing: u64 = some.gaps().iter().map(|part| part.region.pixels() * u64::from(part.samples.count())).sum();
+    let missing: u64 = some.gaps().0.iter().map(|part| part.region.pixels() * u64::from(part.samples.count())).sum();
     assert_eq!(missing + some.done(), whole.done());
-    assert!(whole.gaps().is_empty());
+    assert!(whole.gaps().0.is_empty());
     assert_eq!(Film::merge(&[some, parts[3].clone(), parts[4].clone()]).as_ref(), Ok(&whole));
 }
 

@@ -35,14 +35,7 @@ impl Rare {
 }
 
 impl Integrator for Rare {
-    fn radiance<O: Observer>(
-        &self,
-        _: &CompiledScene,
-        _: &Ray,
-        _: Known<'_>,
-        sampler: &Sampler,
-        _: &mut O,
-    ) -> Rgb {
+    fn radiance<O: Observer>(&self, _: &CompiledScene, _: &Ray, _: Known<'_>, sampler: &Sampler, _: &mut O) -> Rgb {
         // Fractions of large multiples know nothing of how evenly the numbers themselves are spread.
         let at = sampler.two(1, Purpose::Direction);
         let mixed = at.x * 7919.0 + at.y * 104_729.0 + sampler.one(1, Purpose::Lobe) * 1_299_709.0;
@@ -61,9 +54,10 @@ fn rare_light_is_not_missed() {
     let pixels = film.pixels();
     let mean = pixels.iter().map(|pixel| f64::from(pixel.r)).sum::<f64>() / pixels.len() as f64;
     let truth = Rare::CHANCE * f64::from(Rare::LIGHT);
-    let dark = film.region().cells(CELL).filter(|cell| {
-        cell.pixel_places().all(|(x, y)| film.pixels()[film.region().index_of(x, y)].is_black())
-    });
+    let dark = film
+        .region()
+        .cells(CELL)
+        .filter(|cell| cell.pixel_places().all(|(x, y)| film.pixels()[film.region().index_of(x, y)].is_black()));
     assert_eq!(dark.count(), 0, "cells without light");
     assert!((mean / truth - 1.0).abs() < 0.15, "{mean} in place of {truth}");
 }
@@ -82,7 +76,9 @@ fn any_part_is_that_part_of_the_whole() {
         let alone = render(&scene, &options(Some(part)), &()).unwrap();
         for (x, y) in part.pixel_places() {
             let (own, other) = (part.index_of(x, y), whole.region().index_of(x, y));
-            let taken = |film: &Film, pixel: usize| film.sums().map(|sums| (sums.taken[pixel], sums.colors[pixel], sums.squares[pixel]));
+            let taken = |film: &Film, pixel: usize| {
+                film.sums().map(|sums| (sums.taken[pixel], sums.colors[pixel], sums.squares[pixel]))
+            };
             assert_eq!(taken(&alone, own), taken(&whole, other), "{part:?}: {x},{y}");
         }
         for tiles in [3, 12] {
@@ -155,9 +151,24 @@ fn neighbors_of_noise_go_on_and_others_stop() {
     for _ in 0..7 {
         assert_eq!(made.pass(&[(1, 1), (4, 2)]).len(), 25);
     }
-    let around: Vec<(u32, u32)> =
-        [(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1), (3, 1), (4, 1), (0, 2), (1, 2), (2, 2), (3, 2), (4, 2), (3, 3), (4, 3)]
-            .to_vec();
+    let around: Vec<(u32, u32)> = [
+        (0, 0),
+        (1, 0),
+        (2, 0),
+        (0, 1),
+        (1, 1),
+        (2, 1),
+        (3, 1),
+        (4, 1),
+        (0, 2),
+        (1, 2),
+        (2, 2),
+        (3, 2),
+        (4, 2),
+        (3, 3),
+        (4, 3),
+    ]
+    .to_vec();
     for _ in 0..4 {
         assert_eq!(made.pass(&[(1, 1), (4, 2)]), around);
     }
