@@ -23,7 +23,9 @@ mod scene_hash;
 mod whole;
 
 pub use admit::admit;
-pub use checkpoint::{Checkpoint, CheckpointError, Origin, encode_checkpoint, read_checkpoint};
+pub use checkpoint::{
+    Checkpoint, CheckpointError, CheckpointOutline, Origin, encode_checkpoint, read_checkpoint, read_checkpoint_outline,
+};
 pub use durer_formats::{
     AssetError, Assets, Diagnostic, Diagnostics, Exceeded, FolderAssets, Limit, Limits, LoadOptions, Loaded,
     MemoryAssets, NoAssets, Related, Severity, Sources, json_schema, load_bytes, load_file, load_str,
@@ -42,5 +44,5 @@ pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};
 pub use files::{PictureFile, ReadError, WriteError, picture_facts, picture_layers, read_layers, read_picture};
 pub use film_layers::{FilmLayer, film_layers};
-pub use scene_hash::SceneHash;
+pub use scene_hash::{SceneHash, SceneItem};
 pub use whole::{temporary_beside, write_whole};

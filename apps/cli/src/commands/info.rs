@@ -1,5 +1,6 @@
 //! `durer info`: what is in a scene, counted; or what a picture file says of itself.
 
+mod film;
 mod picture;
 
 use crate::exit::{Exit, Failure};
@@ -19,7 +20,8 @@ const EXAMPLES: &str = "\
 Examples:
   durer info room.yaml
   durer info room.yaml --json
-  durer info room.png                 size, samples, and which scene it shows";
+  durer info room.png                 size, samples, and which scene it shows
+  durer info part.film                which part of which picture; of checkpoints, too";
 
 /// Say what is in a scene: shapes, materials, images, lights, and how large it is; or in a picture
 #[derive(Args, Debug)]
@@ -35,6 +37,9 @@ pub(crate) struct Arguments {
 
 /// Counts what is in the scene, or reads what the picture says.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    if film::is_one(&arguments.scene.path) {
+        return film::run(&arguments.scene.path, arguments.json);
+    }
     if FileFormat::from_path(&arguments.scene.path).is_ok() {
         return picture::run(&arguments.scene.path, arguments.json);
     }

@@ -1,9 +1,9 @@
 //! The bytes of a checkpoint.
 
-use super::{Checkpoint, CheckpointError, Origin};
+use super::{Checkpoint, CheckpointError, CheckpointOutline, Origin};
 use crate::SceneHash;
 use durer_math::{DVec2, Rgb};
-use durer_render::{BadSample, Calm, Film, FilmParts, Part, RayCounts, Region, SampleRange, Sums};
+use durer_render::{BadSample, Calm, Film, FilmOutline, FilmParts, Part, RayCounts, Region, SampleRange, Sums};
 use twox_hash::XxHash3_128;
 
 /// How files begin. The last three bytes are changed by programs that take the file for a text.
@@ -32,6 +32,9 @@ pub fn encode_checkpoint(origin: &Origin, scene: &SceneHash, film: &Film, second
         text(&mut out, name);
         out.extend_from_slice(&hash.to_le_bytes());
     }
+    text(&mut out, &scene.integrator);
+    out.extend_from_slice(&scene.size.0.to_le_bytes());
+    out.extend_from_slice(&scene.size.1.to_le_bytes());
     let seconds = if film.is_complete() { 0.0 } else { seconds };
     out.extend_from_slice(&seconds.to_le_bytes());
     put_film(&mut out, film);
@@ -111,27 +114,49 @@ impl Checkpoint {
     ///
     /// They are not those of a checkpoint that was made by this version of durer.
     pub fn decode(bytes: &[u8]) -> Result<Checkpoint, CheckpointError> {
-        let rest = bytes.strip_prefix(MAGIC).ok_or(match MAGIC.starts_with(bytes) {
-            true => CheckpointError::Damaged,
-            false => CheckpointError::AnotherKind,
-        })?;
-        let (version, _) = rest.split_first_chunk().ok_or(CheckpointError::Damaged)?;
-        let version = u32::from_le_bytes(*version);
-        if version != VERSION {
-            return Err(CheckpointError::OtherFormat(version));
-        }
+        // Whatever is wrong with the first bytes is told first.
+        begin(bytes)?;
         let (content, checksum) = bytes.split_last_chunk::<HASH>().ok_or(CheckpointError::Damaged)?;
         if XxHash3_128::oneshot(content).to_le_bytes() != *checksum {
             return Err(CheckpointError::Damaged);
         }
-        let mut input = Input(content.get(MAGIC.len() + 4..).ok_or(CheckpointError::Damaged)?);
-        let made_by = input.text().ok_or(CheckpointError::Damaged)?;
-        if made_by != MADE_BY {
-            return Err(CheckpointError::OtherVersion(made_by));
-        }
+        let mut input = made_here(content)?;
         let checkpoint = input.checkpoint().ok_or(CheckpointError::Damaged)?;
         if input.0.is_empty() { Ok(checkpoint) } else { Err(CheckpointError::Damaged) }
     }
+}
+
+impl CheckpointOutline {
+    /// Reads it from the first bytes of a checkpoint. Whether the others are there and are right, it does not say.
+    pub(super) fn decode(bytes: &[u8]) -> Result<CheckpointOutline, CheckpointError> {
+        begin(bytes)?;
+        made_here(bytes)?.outline().ok_or(CheckpointError::Damaged)
+    }
+}
+
+/// What follows the version of the format.
+fn begin(bytes: &[u8]) -> Result<Input<'_>, CheckpointError> {
+    let rest = bytes.strip_prefix(MAGIC).ok_or(match MAGIC.starts_with(bytes) {
+        true => CheckpointError::Damaged,
+        false => CheckpointError::AnotherKind,
+    })?;
+    let (version, rest) = rest.split_first_chunk().ok_or(CheckpointError::Damaged)?;
+    let version = u32::from_le_bytes(*version);
+    if version == VERSION { Ok(Input(rest)) } else { Err(CheckpointError::OtherFormat(version)) }
+}
+
+/// What follows the version of the program, if it is ours.
+fn made_here(bytes: &[u8]) -> Result<Input<'_>, CheckpointError> {
+    let mut input = begin(bytes)?;
+    let made_by = input.text().ok_or(CheckpointError::Damaged)?;
+    if made_by == MADE_BY { Ok(input) } else { Err(CheckpointError::OtherVersion(made_by)) }
+}
+
+/// What stands before the film.
+struct Head {
+    origin: Origin,
+    scene: SceneHash,
+    seconds: f64,
 }
 
 /// What is still to be read. Each method gives `None` if it is not there.
@@ -177,20 +202,39 @@ impl<'a> Input<'a> {
         Some(list)
     }
 
-    fn checkpoint(&mut self) -> Option<Checkpoint> {
+    fn head(&mut self) -> Option<Head> {
         let origin = Origin { folder: self.text()?, words: self.list(Input::text)? };
         let parts = self.list(|input| Some((input.text()?, u128::from_le_bytes(input.array()?))))?;
+        let scene = SceneHash { parts, integrator: self.text()?, size: (self.u32()?, self.u32()?) };
         let seconds =
             Some(f64::from_le_bytes(self.array()?)).filter(|seconds| seconds.is_finite() && *seconds >= 0.0)?;
+        Some(Head { origin, scene, seconds })
+    }
+
+    fn checkpoint(&mut self) -> Option<Checkpoint> {
+        let Head { origin, scene, seconds } = self.head()?;
         let film = self.film()?;
         // A finished film has one form.
         if film.is_complete() && seconds.to_bits() != 0 {
             return None;
         }
-        Some(Checkpoint { origin, scene: SceneHash { parts }, seconds, film })
+        Some(Checkpoint { origin, scene, seconds, film })
     }
 
-    fn film(&mut self) -> Option<Film> {
+    fn outline(&mut self) -> Option<CheckpointOutline> {
+        let Head { origin, scene, .. } = self.head()?;
+        let FilmParts { region, .. } = self.account()?;
+        let mut film = FilmOutline { region, ..FilmOutline::default() };
+        if self.flag()? {
+            film.is_complete = self.flag()?;
+            film.direct = self.flag()?;
+            film.parts = self.parts()?;
+        }
+        film.is_possible().then_some(CheckpointOutline { origin, scene, film })
+    }
+
+    /// All of a film but its pixels.
+    fn account(&mut self) -> Option<FilmParts> {
         let region = self.region()?;
         let [eye, reflected, transmitted] = [self.u64()?, self.u64()?, self.u64()?];
         let rays = RayCounts { eye, reflected, transmitted, shadow: self.u64()?, cut_off: self.u64()? };
@@ -202,8 +246,19 @@ impl<'a> Input<'a> {
             return None;
         }
         let first_bad_sample = is_there.then_some(BadSample { at });
-        let parts = FilmParts { region, rays, bad_samples, first_bad_sample, ..FilmParts::default() };
+        Some(FilmParts { region, rays, bad_samples, first_bad_sample, ..FilmParts::default() })
+    }
+
+    fn film(&mut self) -> Option<Film> {
+        let parts = self.account()?;
         Film::from_parts(if self.flag()? { self.with_sums(parts)? } else { self.with_pixels(parts)? })
+    }
+
+    fn parts(&mut self) -> Option<Vec<Part>> {
+        self.list(|input| {
+            let region = input.region()?;
+            Some(Part { region, samples: SampleRange { start: input.u32()?, end: input.u32()? } })
+        })
     }
 
     fn region(&mut self) -> Option<Region> {
@@ -221,10 +276,7 @@ impl<'a> Input<'a> {
 
     fn with_sums(&mut self, parts: FilmParts) -> Option<FilmParts> {
         let (region, is_finished, has_direct) = (parts.region, self.flag()?, self.flag()?);
-        let of = self.list(|input| {
-            let region = input.region()?;
-            Some(Part { region, samples: SampleRange { start: input.u32()?, end: input.u32()? } })
-        })?;
+        let of = self.parts()?;
         let calm = self.list(|input| {
             let (samples, [passes], first) = (input.u32()?, input.array()?, input.u32()?);
             Some(Calm { samples, passes, first })

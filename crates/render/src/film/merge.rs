@@ -37,7 +37,7 @@ impl std::fmt::Display for MergeError {
             MergeError::Unfinished(_) => write!(f, "it is not finished"),
             MergeError::OtherKind(_) => write!(f, "it has other layers than the films before it"),
             MergeError::Overlap { both, .. } => write!(f, "both have {both}"),
-            MergeError::Another(_) => write!(f, "it changed while it was read"),
+            MergeError::Another(_) => write!(f, "it is not what it says, or changed while it was read"),
             MergeError::TooScattered => write!(f, "they are too many pieces, or too far apart"),
         }
     }
@@ -61,6 +61,13 @@ pub struct FilmOutline {
     pub direct: bool,
     /// True if it is finished.
     pub is_complete: bool,
+}
+
+impl FilmOutline {
+    /// False if no film can have it.
+    pub fn is_possible(&self) -> bool {
+        self.region.is_somewhere() && (self.parts.is_empty() || super::sums::parts_fit(&self.parts, self.region))
+    }
 }
 
 /// A film that others are put to, one after the other, so that not all of them need to be held at once.
@@ -189,6 +196,9 @@ fn can_be_merged(films: &[FilmOutline]) -> Result<(), MergeError> {
     for (index, film) in films.iter().enumerate() {
         if film.parts.is_empty() {
             return Err(MergeError::NoSamples(index));
+        }
+        if !film.is_possible() {
+            return Err(MergeError::Another(index));
         }
         if !film.is_complete {
             return Err(MergeError::Unfinished(index));

@@ -260,7 +260,7 @@ impl Sums {
 pub(super) const MOST_PARTS: usize = 4096;
 
 /// True if parts can be those of a film of this region: sorted, and none overlaps another.
-fn parts_fit(parts: &[Part], region: Region) -> bool {
+pub(super) fn parts_fit(parts: &[Part], region: Region) -> bool {
     let inside = |part: &Part| part.region.is_somewhere() && part.region.intersection(region) == Some(part.region);
     let is_fine = |part: &Part| inside(part) && part.samples.count() > 0;
     let alone = |(at, part): (usize, &Part)| parts[at + 1..].iter().all(|other| !part.overlaps(other));
