@@ -1,6 +1,6 @@
 //! `durer info`: what is in a scene, counted; or what a picture file says of itself.
 
-mod film;
+pub(crate) mod film;
 mod picture;
 
 use crate::exit::{Exit, Failure};

@@ -46,9 +46,7 @@ pub(crate) struct Arguments {
 /// Merges.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let paths = &arguments.films;
-    if !target::is_film(&arguments.output) {
-        target::format_of(&arguments.output)?;
-    }
+    let to_film = target::format_or_film(&arguments.output)?.is_none();
     if let Some(film) = paths.iter().find(|film| target::same_place(film, &arguments.output)) {
         let name = film.display();
         return Err(Failure::usage(format!(
@@ -66,7 +64,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
             return Err(Failure::file(format!("cannot merge {path}: it differs from {first} in {differing}")));
         }
     }
-    let to_film = target::is_film(&arguments.output);
     let is_quiet = arguments.manner.is_quiet();
     let film = match &outlines[..] {
         // A picture can be made of what there is so far.

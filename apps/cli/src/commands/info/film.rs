@@ -8,11 +8,12 @@ use serde_json::{Value, json};
 use std::path::Path;
 
 /// True if the file begins as films and checkpoints do, of whatever version.
-pub(super) fn is_one(path: &Path) -> bool {
+pub(crate) fn is_one(path: &Path) -> bool {
+    let is_empty = std::fs::metadata(path).is_ok_and(|metadata| metadata.len() == 0);
     match read_checkpoint_outline(path) {
-        Ok(_) | Err(CheckpointError::OtherFormat(_) | CheckpointError::OtherVersion(_) | CheckpointError::Damaged) => {
-            true
-        }
+        Ok(_) | Err(CheckpointError::OtherFormat(_) | CheckpointError::OtherVersion(_)) => true,
+        // Nothing at all is the beginning of anything.
+        Err(CheckpointError::Damaged) => !is_empty,
         // A file of another kind, or none that can be read.
         Err(_) => false,
     }

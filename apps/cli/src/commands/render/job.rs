@@ -76,7 +76,7 @@ impl Job<'_> {
         if arguments.saving.checkpoint.as_ref().is_some_and(|checkpoint| target::same_place(checkpoint, &path)) {
             return Err(Failure::usage("--checkpoint: the checkpoint cannot be the same file as the picture"));
         }
-        let format = if target::is_film(&path) { None } else { Some(target::format_of(&path)?) };
+        let format = target::format_or_film(&path)?;
         let mut options = match format {
             Some(format) => arguments.file.encode_options(format)?,
             None if arguments.layers.alpha => return Err(Failure::usage("--alpha: films have none; pictures have")),
