@@ -23,9 +23,9 @@ Examples:
 
 The films must be of one scene with the same settings, and no two may have the same
 samples of a pixel. What comes of it is, byte for byte, what one render with all their
-samples makes; what is missing is told, and black in a picture. For a picture the scene must be
-where it was: it says how films are developed. Of one film alone that is not finished, or
-of one checkpoint, a picture can be made, too: of what there is.";
+samples makes; what is missing is told, and black in a picture. For a picture the scene
+must be where it was: it says how films are developed. Of one film alone that is not
+finished, or of one checkpoint, a picture can be made, too: of what there is.";
 
 /// Put films of parts of a picture together
 #[derive(Args, Debug)]
