@@ -63,6 +63,11 @@ impl Packet {
         self.count
     }
 
+    /// Where they go, by components.
+    pub fn directions(&self) -> &[[f64; LANES]; 3] {
+        &self.direction
+    }
+
     /// One bit for each ray.
     pub(crate) fn all(&self) -> u32 {
         (1 << self.count) - 1

@@ -27,7 +27,11 @@ pub struct Seen {
     start: Columns,
     /// Which of them see something, one bit each.
     hit: u32,
-    hits: [Option<Hit>; LANES],
+    /// The numbers of what they see, as sums with [`ROUND`].
+    numbers: [f64; LANES],
+    parts: [u32; LANES],
+    /// Each primitive that is seen, and the rays that see it.
+    groups: ArrayVec<(u32, u32), LANES>,
 }
 
 /// How eight points lie to another one.
@@ -82,6 +86,10 @@ pub enum Way {
     Unknown,
 }
 
+/// Rays with a smaller cosine to the normal of what they start from may go through it for their rounding: a thousand times the
+/// rounding of a sum of three products.
+const TOUCHING: f64 = 1e-12;
+
 /// The number of no primitive.
 const NOTHING: u32 = u32::MAX;
 
@@ -99,7 +107,9 @@ impl Default for Seen {
             face: Columns::default(),
             start: Columns::default(),
             hit: 0,
-            hits: [None; LANES],
+            numbers: [ROUND + f64::from(NOTHING); LANES],
+            parts: [0; LANES],
+            groups: ArrayVec::new(),
         }
     }
 }
@@ -122,12 +132,30 @@ impl Seen {
     /// What a ray hits first.
     #[inline]
     pub fn hit(&self, lane: usize) -> Option<Hit> {
-        self.hits[lane % LANES]
+        let lane = lane % LANES;
+        let crossing = Crossing { t: self.t[lane], part: self.parts[lane] };
+        (self.hit >> lane & 1 == 1).then(|| Hit { crossing, primitive: whole(self.numbers[lane]) as u32 })
     }
 
     /// Which rays hit something, one bit each.
     pub fn lanes(&self) -> u32 {
         self.hit
+    }
+
+    /// Each primitive that is hit, and which rays hit it.
+    pub fn groups(&self) -> &[(u32, u32)] {
+        &self.groups
+    }
+
+    /// The normals on the sides that the rays came from, by components.
+    pub fn faces(&self) -> &[[f64; LANES]; 3] {
+        &self.face
+    }
+
+    /// Which rays hit this primitive.
+    #[inline(always)]
+    fn lanes_on(&self, primitive: u32) -> u32 {
+        self.groups.iter().fold(0, |lanes, group| if group.0 == primitive { group.1 } else { lanes })
     }
 
     /// How far away that is, for all rays; infinite where there is nothing.
@@ -158,6 +186,11 @@ impl Sights {
     /// Those of which it is not known whether it is.
     pub fn unknown(&self) -> u32 {
         self.wanted & !(self.open | self.shut)
+    }
+
+    /// The directions for all points, by components.
+    pub fn directions(&self) -> &[[f64; LANES]; 3] {
+        &self.direction
     }
 
     /// The cosines for all points.
@@ -281,25 +314,11 @@ impl World {
                 (nearest, ids) = (wins.select(t, nearest), wins.select(number, ids));
             }
         }
-        let found = nearest.simd_lt(far).to_bitmask() as u32;
-        let each: [f64; LANES] = ids.into();
-        seen.t = nearest.into();
-        seen.hit = found & packet.all();
-        for (lane, &number) in each.iter().enumerate() {
-            seen.hits[lane] = match seen.hit >> lane & 1 {
-                1 => Some(Hit { crossing: Crossing { t: seen.t[lane], part: 0 }, primitive: whole(number) as u32 }),
-                _ => None,
-            };
-        }
+        (seen.t, seen.numbers, seen.parts) = (nearest.into(), ids.into(), [0; LANES]);
+        seen.hit = nearest.simd_lt(far).to_bitmask() as u32 & packet.all();
         if !curved.is_empty() || lost != 0 {
             self.see_curved(packet, &curved, lost, seen);
-            let mut each = each;
-            for (number, hit) in each.iter_mut().zip(&seen.hits) {
-                if let Some(hit) = hit {
-                    *number = ROUND + f64::from(hit.primitive);
-                }
-            }
-            ids = each.simd_into(simd);
+            ids = seen.numbers.simd_into(simd);
         }
         self.surfaces(simd, rays, (packet, ids), seen);
     }
@@ -311,7 +330,7 @@ impl World {
         for lane in lanes_of(lanes) {
             let ray = packet.ray(lane);
             let mut best = Best::below(f64::INFINITY);
-            if let Some(hit) = seen.hits[lane] {
+            if let Some(hit) = seen.hit(lane) {
                 best.offer(hit.primitive, hit.crossing);
             }
             for &(id, _) in curved.iter().filter(|(_, lanes)| lanes >> lane & 1 == 1) {
@@ -323,9 +342,11 @@ impl World {
                 1 => self.closest_hit(&ray, f64::INFINITY, u32::MAX, None),
                 _ => best.hit(),
             };
-            seen.hits[lane] = hit;
-            seen.t[lane] = hit.map_or(f64::INFINITY, |hit| hit.crossing.t);
             seen.hit = seen.hit & !(1 << lane) | u32::from(hit.is_some()) << lane;
+            seen.t[lane] = hit.map_or(f64::INFINITY, |hit| hit.crossing.t);
+            if let Some(hit) = hit {
+                (seen.numbers[lane], seen.parts[lane]) = (ROUND + f64::from(hit.primitive), hit.crossing.part);
+            }
         }
     }
 
@@ -340,7 +361,9 @@ impl World {
     ) {
         let near = rays.0 + rays.1 * f64x8::simd_from(simd, seen.t);
         let mut primitives = ByNumber::new(ids, seen.hit);
+        seen.groups.clear();
         while let Some((id, lanes)) = primitives.next(simd) {
+            seen.groups.push((id as u32, lanes));
             let primitive = &self.primitives()[id];
             match primitive.flat_normal() {
                 Some(normal) if lanes.count_ones() > 1 => {
@@ -361,7 +384,7 @@ impl World {
                 }
                 Some(_) | None => {
                     for lane in lanes_of(lanes) {
-                        let Some(Hit { crossing, .. }) = seen.hits[lane] else { continue };
+                        let Some(Hit { crossing, .. }) = seen.hit(lane) else { continue };
                         let surface = primitive.surface(&packet.ray(lane), &crossing);
                         set_lane(&mut seen.point, lane, surface.point);
                         set_lane(&mut seen.normal, lane, surface.normal);
@@ -403,6 +426,9 @@ impl World {
             let outside = (-direction.dot(Lanes::splat(simd, axis))).simd_lt(f64x8::splat(simd, least));
             wanted &= !outside.to_bitmask() as u32;
         }
+        // What is flat cannot stand in its own way: rays start off it on the side of the other point, and lead away from it.
+        // Only those that all but touch it might be told otherwise by rounding.
+        let leaving = cosine.simd_gt(f64x8::splat(simd, TOUCHING)).to_bitmask() as u32;
         let (mut shut, mut unknown) = (0, 0);
         if wanted != 0 {
             let t_max = distance * f64x8::splat(simd, reach);
@@ -417,6 +443,10 @@ impl World {
                     let primitive = &self.primitives()[id as usize];
                     if !primitive.is_flat() {
                         curved.push((id, lanes));
+                        continue;
+                    }
+                    let lanes = lanes & !(seen.lanes_on(id) & leaving);
+                    if lanes == 0 {
                         continue;
                     }
                     let (_, met) = primitive.meet_lanes(simd, (start, direction), t_max);

@@ -16,9 +16,9 @@ pub(crate) fn byte_from_linear(linear: f32, transfer: Transfer) -> u8 {
 /// The bytes of these colours, three each.
 pub(crate) fn bytes_from_linear(pixels: &[Rgb], transfer: Transfer) -> Vec<u8> {
     let quantizer = ByteQuantizer::new(transfer);
-    let mut bytes = Vec::with_capacity(pixels.len() * 3);
-    for pixel in pixels {
-        bytes.extend_from_slice(&pixel.to_array().map(|v| quantizer.byte(v)));
+    let mut bytes = vec![0; pixels.len() * 3];
+    for (pixel, bytes) in pixels.iter().zip(bytes.as_chunks_mut::<3>().0) {
+        *bytes = pixel.to_array().map(|v| quantizer.byte(v));
     }
     bytes
 }
@@ -30,6 +30,9 @@ pub(crate) fn word_from_linear(linear: f32, transfer: Transfer) -> u16 {
 
 /// Below this every sRGB byte is 0: the first step, to 1, is at 1.5·10⁻⁴.
 const SMALLEST: f32 = 1.0 / 8192.0;
+
+/// The largest float below 1, which is white.
+const LARGEST: f32 = 1.0_f32.next_down();
 
 /// Floats that agree in all but their last 16 bits share a bucket: 128 buckets for each power of two.
 const BUCKET_BITS: u32 = 16;
@@ -61,9 +64,9 @@ impl ByteQuantizer {
         if self.buckets.is_empty() {
             return byte_from_linear(linear, Transfer::Linear);
         }
-        if linear.is_nan() || linear < SMALLEST {
-            return 0;
-        }
+        // The first bucket is that of black, also for NaN, and the last that of white.
+        let linear = if linear > SMALLEST { linear } else { SMALLEST };
+        let linear = if linear < LARGEST { linear } else { LARGEST };
         match self.buckets.get(bucket_index(linear)) {
             Some(bucket) => bucket.below + u8::from(linear >= bucket.step),
             None => 255,

@@ -8,8 +8,8 @@ use crate::compile::{CompiledScene, OPAQUE};
 use crate::visibility::SHORT_OF_LIGHT;
 use durer_geometry::{Goal, Hit, LANES, Packet, Ray, Seen, Sight, Sights, Surface};
 use durer_math::DVec2;
-use plain::Plain;
 pub(crate) use plain::Sum;
+use plain::{Plain, View};
 
 /// With more lights than this, most are looked at one by one.
 const MOST_LIGHTS: usize = 16;
@@ -39,9 +39,8 @@ impl Ahead {
         let Some(eye) = scene.eye_vantage.as_ref() else { return };
         let Some(rays) = scene.camera.rays(&scene.world, points) else { return };
         scene.world.see(eye, &rays, &mut self.seen);
-        self.rays = Some(rays);
         if let Some(fog) = &scene.fog {
-            fog.visible_each(self.seen.distances(), &mut self.visible);
+            self.visible = fog.visible_each(scene.world.simd(), self.seen.distances());
         }
         self.sights.resize_with(scene.lights.len().min(MOST_LIGHTS), || None);
         let lights = scene.lights.iter().zip(&scene.light_vantages);
@@ -54,7 +53,9 @@ impl Ahead {
                 None => *sights = None,
             }
         }
-        self.plain.find(scene, &self.seen, &self.sights, &self.visible);
+        let (seen, sights, visible) = (&self.seen, &self.sights, &self.visible);
+        self.plain.find(scene, &View { rays: &rays, seen, sights, visible });
+        self.rays = Some(rays);
     }
 
     /// What one of the rays sees.
@@ -81,7 +82,7 @@ impl SeenAhead<'_> {
     }
 
     /// All that arrives along it, if that is known already.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn sum(&self) -> Option<Sum> {
         self.ahead.plain.sum(self.lane)
     }

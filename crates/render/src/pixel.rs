@@ -56,6 +56,8 @@ impl<I: Integrator> Gathered<'_, I> {
 }
 
 impl<I: Integrator> Samples for Gathered<'_, I> {
+    // Inlined, since a sample that is returned through memory is waited for.
+    #[inline(always)]
     fn take(&mut self, at: DVec2) -> Sample {
         let known = match (self.first_rays.known(self.taken as usize), &self.scene.eye_vantage) {
             (Some(known), _) => known,

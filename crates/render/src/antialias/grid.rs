@@ -10,12 +10,12 @@ pub(crate) struct Grid {
 
 impl Antialias for Grid {
     fn certain(&self, corner: DVec2, points: &mut Vec<DVec2>) {
-        points.extend(self.points(corner));
+        self.each_point(corner, |point| points.push(point));
     }
 
     fn pixel(&self, corner: DVec2, samples: &mut impl Samples) {
         let weight = 1.0 / (self.n * self.n) as f32;
-        self.points(corner).for_each(|point| {
+        self.each_point(corner, |point| {
             let sample = samples.take(point);
             samples.keep(weight, sample);
         });
@@ -23,11 +23,14 @@ impl Antialias for Grid {
 }
 
 impl Grid {
-    fn points(&self, corner: DVec2) -> impl Iterator<Item = DVec2> {
-        let n = self.n;
-        let cell = 1.0 / f64::from(n);
-        let within = move |row: u32, column: u32| DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5) * cell;
-        (0..n).flat_map(move |row| (0..n).map(move |column| corner + within(row, column)))
+    #[inline(always)]
+    fn each_point(&self, corner: DVec2, mut visit: impl FnMut(DVec2)) {
+        let cell = 1.0 / f64::from(self.n);
+        for row in 0..self.n {
+            for column in 0..self.n {
+                visit(corner + DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5) * cell);
+            }
+        }
     }
 }
 
