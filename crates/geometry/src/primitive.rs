@@ -92,6 +92,15 @@ pub struct Surface {
     pub offset: f64,
 }
 
+impl Surface {
+    /// What goes on of a ray behind it.
+    #[inline]
+    pub fn onward(&self, ray: &Ray) -> Ray {
+        let onward = self.offset.copysign(ray.direction.dot(self.normal));
+        Ray { origin: self.point + self.normal * onward, direction: ray.direction }
+    }
+}
+
 /// The constructors take measures in an object's space, and the map from there to the world.
 impl Primitive {
     /// The infinite plane through `point`, facing `normal`.
@@ -361,12 +370,14 @@ impl Primitive {
 
     /// How often the ray crosses it with 0 < t < `t_max`.
     pub fn count_crossings(&self, ray: &Ray, t_max: f64) -> u32 {
-        let mut count = 0;
-        let _ = self.each_crossing(ray, t_max, |_, _, _| {
-            count += 1;
-            false
-        });
-        count
+        let (mut ray, mut t_max, most) = (*ray, t_max, self.most_crossings());
+        for count in 0..most {
+            let Some(crossing) = self.intersect(&ray, t_max) else { return count };
+            if count + 1 < most {
+                (ray, t_max) = (self.surface(&ray, &crossing).onward(&ray), t_max - crossing.t);
+            }
+        }
+        most
     }
 
     /// Calls `visit` for one crossing with 0 < t < `t_max` after the other, from near to far, until it returns true; gives
@@ -386,9 +397,7 @@ impl Primitive {
             if visit(&ray, &crossing, &surface) {
                 return true;
             }
-            let onward = surface.offset.copysign(ray.direction.dot(surface.normal));
-            ray.origin = surface.point + surface.normal * onward;
-            t_max -= crossing.t;
+            (ray, t_max) = (surface.onward(&ray), t_max - crossing.t);
         }
         false
     }
@@ -396,15 +405,9 @@ impl Primitive {
     /// A bound on how often a straight line crosses it, so that no loop over crossings runs on for ever.
     fn most_crossings(&self) -> u32 {
         match self.kind {
-            Kind::Plane(_)
-            | Kind::Sphere(_)
-            | Kind::Cuboid(_)
-            | Kind::Cylinder(_)
-            | Kind::Cone(_)
-            | Kind::Disc(_)
-            | Kind::Rectangle(_)
-            | Kind::Triangle(_)
-            | Kind::Torus(_) => 4,
+            Kind::Plane(_) | Kind::Disc(_) | Kind::Rectangle(_) | Kind::Triangle(_) => 1,
+            Kind::Sphere(_) | Kind::Cuboid(_) | Kind::Cylinder(_) | Kind::Cone(_) => 2,
+            Kind::Torus(_) => 4,
             Kind::Mesh(_) | Kind::Particles(_) | Kind::Solid(_) => MOST_CROSSINGS,
         }
     }

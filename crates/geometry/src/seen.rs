@@ -269,17 +269,18 @@ pub struct Pinhole {
 }
 
 impl World {
-    /// Eight rays: in the directions `forward + right · across + up · up`, of which the first `count` are wanted.
-    pub fn rays_of(&self, pinhole: &Pinhole, across: &[f64; LANES], up: &[f64; LANES], count: usize) -> Packet {
-        let mut direction = Columns::default();
+    /// Makes a packet of eight rays in the directions `forward + right · across + up · up`, of which the first `count` are
+    /// wanted.
+    pub fn rays_of(&self, pinhole: &Pinhole, [across, up]: &[[f64; LANES]; 2], count: usize, packet: &mut Packet) {
         dispatch!(self.simd(), simd => {
             let right = Lanes::splat(simd, pinhole.right) * f64x8::simd_from(simd, *across);
             let up = Lanes::splat(simd, pinhole.up) * f64x8::simd_from(simd, *up);
             let towards = Lanes::splat(simd, pinhole.forward) + (right + up);
             let length = towards.dot(towards).sqrt();
-            (towards * (f64x8::splat(simd, 1.0) / length)).store(&mut direction);
+            (towards * (f64x8::splat(simd, 1.0) / length)).store(&mut packet.direction);
+            Lanes::splat(simd, pinhole.eye).store(&mut packet.origin);
         });
-        Packet::from_point(pinhole.eye, direction, count)
+        packet.set_count(count);
     }
 
     /// What the rays of a packet see, which all start at a vantage.

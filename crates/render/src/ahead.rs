@@ -37,8 +37,10 @@ impl Ahead {
     /// Looks through at most eight points of the picture, in pixels, where that [pays](Ahead::pays).
     pub(crate) fn look(&mut self, scene: &CompiledScene, points: &[DVec2]) {
         let Some(eye) = scene.eye_vantage.as_ref() else { return };
-        let Some(rays) = scene.camera.rays(&scene.world, points) else { return };
-        scene.world.see(eye, &rays, &mut self.seen);
+        let Some(pinhole) = scene.camera.pinhole() else { return };
+        let rays = self.rays.get_or_insert_default();
+        scene.world.rays_of(&pinhole, &scene.camera.on_screen(points), points.len(), rays);
+        scene.world.see(eye, rays, &mut self.seen);
         if let Some(fog) = &scene.fog {
             self.visible = fog.visible_each(scene.world.simd(), self.seen.distances());
         }
@@ -54,8 +56,13 @@ impl Ahead {
             }
         }
         let (seen, sights, visible) = (&self.seen, &self.sights, &self.visible);
-        self.plain.find(scene, &View { rays: &rays, seen, sights, visible });
-        self.rays = Some(rays);
+        self.plain.find(scene, &View { rays, seen, sights, visible });
+    }
+
+    /// All that arrives along one of the rays, if that is known already; it is finite.
+    #[inline(always)]
+    pub(crate) fn sum(&self, lane: usize) -> Option<Sum> {
+        self.plain.sum(lane)
     }
 
     /// What one of the rays sees.
@@ -79,12 +86,6 @@ impl SeenAhead<'_> {
             Some(rays) => rays.ray(self.lane),
             None => scene.camera.ray(at),
         }
-    }
-
-    /// All that arrives along it, if that is known already.
-    #[inline(always)]
-    pub(crate) fn sum(&self) -> Option<Sum> {
-        self.ahead.plain.sum(self.lane)
     }
 
     /// What it hits first.

@@ -254,8 +254,8 @@ pub(crate) fn with_antialias<W: WithAntialias>(scene: &CompiledScene, work: W) -
     }
     let (filter, picture) = (scene.settings.filter, scene.picture_size());
     match scene.settings.antialias {
-        durer_scene::Antialias::None => choose(work, filter, Grid { n: 1 }),
-        durer_scene::Antialias::Grid { n } => choose(work, filter, Grid { n }),
+        durer_scene::Antialias::None => choose(work, filter, Grid::new(1)),
+        durer_scene::Antialias::Grid { n } => choose(work, filter, Grid::new(n)),
         durer_scene::Antialias::Recursive { threshold, max_depth } => {
             choose(work, filter, Recursive { threshold, max_depth })
         }
@@ -397,13 +397,13 @@ fn render_tile<A: Antialias>(scene: &CompiledScene, region: Region, antialias: &
     let mut first_hits = FirstHits::default();
     for part in FirstHits::parts(scene, region) {
         first_hits.find(scene, antialias, part);
-        part.pixel_places().enumerate().for_each(|(index, (x, y))| {
+        for (index, (x, y)) in part.pixel_places().enumerate() {
             let known = first_hits.of_pixel(index);
             let pixel = render_pixel(scene, (&integrator, antialias), (x, y), known, &mut tile.account);
             let color = if pixel.has_bad_samples { without_bad_samples(scene, antialias, (x, y)) } else { pixel.color };
             tile.pixels.push(color);
             tile.depths.push(pixel.depth);
-        });
+        }
     }
     tile
 }

@@ -106,7 +106,7 @@ impl<S: Simd> Colors<S> {
 }
 
 impl Plain {
-    /// What arrives from one of the points, if it is plain.
+    /// What arrives from one of the points, if it is plain; it is finite.
     #[inline(always)]
     pub(crate) fn sum(&self, lane: usize) -> Option<Sum> {
         let lane = lane % LANES;
@@ -177,7 +177,10 @@ impl Plain {
         }
         // What nothing is seen of through fog is left to the integrator, which goes on only where something is.
         self.lanes &= !(weight.simd_eq(f32x8::splat(simd, 0.0)).to_bitmask() as u32);
+        // So is what is not finite, which others count.
         let Colors([r, g, b]) = sum;
+        let least = r * 0.0 + g * 0.0 + b * 0.0;
+        self.lanes &= least.simd_eq(f32x8::splat(simd, 0.0)).to_bitmask() as u32;
         self.sum = [r.into(), g.into(), b.into()];
     }
 }

@@ -5,7 +5,27 @@ use durer_math::DVec2;
 
 /// `n` × `n` samples, each in the middle of its cell.
 pub(crate) struct Grid {
-    pub(crate) n: u32,
+    /// Of the cells along a side of the pixel, in units of it.
+    middles: Vec<f64>,
+    /// Of a sample.
+    weight: f32,
+}
+
+impl Grid {
+    /// So many samples along a side.
+    pub(crate) fn new(n: u32) -> Grid {
+        let cell = 1.0 / f64::from(n);
+        Grid { middles: (0..n).map(|i| (f64::from(i) + 0.5) * cell).collect(), weight: 1.0 / (n * n) as f32 }
+    }
+
+    #[inline(always)]
+    fn each_point(&self, corner: DVec2, mut visit: impl FnMut(DVec2)) {
+        for &y in &self.middles {
+            for &x in &self.middles {
+                visit(corner + DVec2::new(x, y));
+            }
+        }
+    }
 }
 
 impl Antialias for Grid {
@@ -13,24 +33,12 @@ impl Antialias for Grid {
         self.each_point(corner, |point| points.push(point));
     }
 
+    #[inline]
     fn pixel(&self, corner: DVec2, samples: &mut impl Samples) {
-        let weight = 1.0 / (self.n * self.n) as f32;
         self.each_point(corner, |point| {
             let sample = samples.take(point);
-            samples.keep(weight, sample);
+            samples.keep(self.weight, sample);
         });
-    }
-}
-
-impl Grid {
-    #[inline(always)]
-    fn each_point(&self, corner: DVec2, mut visit: impl FnMut(DVec2)) {
-        let cell = 1.0 / f64::from(self.n);
-        for row in 0..self.n {
-            for column in 0..self.n {
-                visit(corner + DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5) * cell);
-            }
-        }
     }
 }
 
@@ -62,7 +70,7 @@ mod tests {
     #[test]
     fn samples_are_the_middles_of_the_cells() {
         let mut places = Places::default();
-        Grid { n: 2 }.pixel(DVec2::new(10.0, 20.0), &mut places);
+        Grid::new(2).pixel(DVec2::new(10.0, 20.0), &mut places);
         assert_eq!(places.taken, [(10.25, 20.25), (10.75, 20.25), (10.25, 20.75), (10.75, 20.75)]);
         assert_eq!(places.weights, 1.0);
     }
