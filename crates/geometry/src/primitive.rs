@@ -75,6 +75,8 @@ pub struct Primitive {
     shape_from_world: DMat3,
     /// For a flat shape its unit normal in the world and one over the stretch of it; the same everywhere on it.
     flat: Option<(DVec3, f64)>,
+    /// A ball around it in the world: its middle, and the square of its radius, or a little more.
+    ball: (DVec3, f64),
     /// Norms (greatest sum of a row) of the two matrices, for bounds on rounding errors.
     norms: [f64; 2],
     /// How far the two are from being inverse to each other: the norm of their product less the identity.
@@ -206,6 +208,7 @@ impl Primitive {
             | Kind::Solid(_) => None,
         };
         Primitive {
+            ball: ball_around(&kind, world_from_shape),
             flat,
             kind,
             mask: u32::MAX,
@@ -513,6 +516,34 @@ fn axial_frame(axis: DVec3, radius: f64, origin: DVec3) -> DAffine3 {
     let length = axis.length();
     let turn = rotation_between(DVec3::Y, axis / length);
     DAffine3::from_mat3_translation(turn * DMat3::from_diagonal(DVec3::new(radius, length, radius)), origin)
+}
+
+/// The middle of a ball around a shape, and the square of its radius, or a little more.
+fn ball_around(kind: &Kind, world_from_shape: &DAffine3) -> (DVec3, f64) {
+    let map = &world_from_shape.matrix3;
+    let Bounds { min, max } = each_kind!(kind, shape => shape.bounds());
+    let half = (max - min) * 0.5;
+    let squared_radius = match kind {
+        // The square of the greatest stretch is at most this product.
+        Kind::Sphere(_) => row_norm(map) * row_norm(&map.transpose()),
+        Kind::Plane(_)
+        | Kind::Cuboid(_)
+        | Kind::Cylinder(_)
+        | Kind::Cone(_)
+        | Kind::Disc(_)
+        | Kind::Rectangle(_)
+        | Kind::Triangle(_)
+        | Kind::Torus(_)
+        | Kind::Mesh(_)
+        | Kind::Particles(_)
+        | Kind::Solid(_) => {
+            let corners = [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
+            let corners = corners.map(|(x, y)| (*map * (half * DVec3::new(x, y, 1.0))).length_squared());
+            // Without end, or NaN, it reaches everywhere.
+            corners.into_iter().fold(0.0, |most, squared| if squared <= most { most } else { squared })
+        }
+    };
+    (world_from_shape.transform_point3((min + max) * 0.5), squared_radius * (1.0 + 1e-6))
 }
 
 fn row_norm(m: &DMat3) -> f64 {

@@ -27,6 +27,8 @@ pub struct Seen {
     start: Columns,
     /// Which of them see something, one bit each.
     hit: u32,
+    /// Which of them came from the side that the normal points to.
+    outside: u32,
     /// The numbers of what they see, as sums with [`ROUND`].
     numbers: [f64; LANES],
     parts: [u32; LANES],
@@ -86,15 +88,25 @@ pub enum Way {
     Unknown,
 }
 
-/// Rays with a smaller cosine to the normal of what they start from may go through it for their rounding: a thousand times the
-/// rounding of a sum of three products.
-const TOUCHING: f64 = 1e-12;
+/// Rays with a smaller cosine to the normal of what they start from might meet it by rounding. It is far above that of any map
+/// that is not all but flat.
+const TOUCHING: f64 = 1e-6;
 
 /// The number of no primitive.
 const NOTHING: u32 = u32::MAX;
 
 /// A list that could not be used up by all lanes at once: a primitive, and the lanes that may meet it.
-type Curved = ArrayVec<(u32, u32), 96>;
+#[derive(Default)]
+struct Curved(ArrayVec<(u32, u32), 96>);
+
+impl Curved {
+    #[inline(always)]
+    fn add(&mut self, id: u32, lanes: u32) {
+        if lanes != 0 {
+            self.0.push((id, lanes));
+        }
+    }
+}
 
 impl Default for Seen {
     /// Nothing.
@@ -107,6 +119,7 @@ impl Default for Seen {
             face: Columns::default(),
             start: Columns::default(),
             hit: 0,
+            outside: 0,
             numbers: [ROUND + f64::from(NOTHING); LANES],
             parts: [0; LANES],
             groups: ArrayVec::new(),
@@ -293,7 +306,7 @@ impl World {
         let rays = (Lanes::load(simd, &packet.origin), Lanes::load(simd, &packet.direction));
         let far = f64x8::splat(simd, f64::INFINITY);
         let (mut nearest, mut ids) = (far, f64x8::splat(simd, ROUND + f64::from(NOTHING)));
-        let (mut curved, mut lost) = (Curved::new(), 0);
+        let (mut curved, mut lost) = (Curved::default(), 0);
         let mut cells = ByNumber::new(cells_of(simd, rays.1), packet.all());
         while let Some((cell, lanes)) = cells.next(simd) {
             let Some(list) = from.listed(cell) else {
@@ -306,7 +319,7 @@ impl World {
                     continue;
                 }
                 if !primitive.is_flat() {
-                    curved.push((id, lanes));
+                    curved.add(id, lanes & primitive.lanes_near(simd, rays));
                     continue;
                 }
                 let number = f64x8::splat(simd, ROUND + f64::from(id));
@@ -317,7 +330,7 @@ impl World {
         }
         (seen.t, seen.numbers, seen.parts) = (nearest.into(), ids.into(), [0; LANES]);
         seen.hit = nearest.simd_lt(far).to_bitmask() as u32 & packet.all();
-        if !curved.is_empty() || lost != 0 {
+        if !curved.0.is_empty() || lost != 0 {
             self.see_curved(packet, &curved, lost, seen);
             ids = seen.numbers.simd_into(simd);
         }
@@ -327,14 +340,14 @@ impl World {
     /// Goes on with what is not flat, and with lanes for which there is no list.
     #[inline(never)]
     fn see_curved(&self, packet: &Packet, curved: &Curved, lost: u32, seen: &mut Seen) {
-        let lanes = curved.iter().fold(lost, |all, (_, lanes)| all | lanes);
+        let lanes = curved.0.iter().fold(lost, |all, (_, lanes)| all | lanes);
         for lane in lanes_of(lanes) {
             let ray = packet.ray(lane);
             let mut best = Best::below(f64::INFINITY);
             if let Some(hit) = seen.hit(lane) {
                 best.offer(hit.primitive, hit.crossing);
             }
-            for &(id, _) in curved.iter().filter(|(_, lanes)| lanes >> lane & 1 == 1) {
+            for &(id, _) in curved.0.iter().filter(|(_, lanes)| lanes >> lane & 1 == 1) {
                 if let Some(crossing) = self.primitives()[id as usize].intersect(&ray, best.reach()) {
                     best.offer(id, crossing);
                 }
@@ -396,6 +409,7 @@ impl World {
         }
         let (point, normal) = (Lanes::load(simd, &seen.point), Lanes::load(simd, &seen.normal));
         let outside = rays.1.dot(normal).simd_lt(f64x8::splat(simd, 0.0));
+        seen.outside = outside.to_bitmask() as u32;
         let inward = -normal;
         let face = Lanes {
             x: outside.select(normal.x, inward.x),
@@ -427,13 +441,13 @@ impl World {
             let outside = (-direction.dot(Lanes::splat(simd, axis))).simd_lt(f64x8::splat(simd, least));
             wanted &= !outside.to_bitmask() as u32;
         }
-        // What is flat cannot stand in its own way: rays start off it on the side of the other point, and lead away from it.
-        // Only those that all but touch it might be told otherwise by rounding.
+        // What is flat cannot stand in its own way, nor can what is convex, seen from outside: rays start off it on the side of
+        // the other point, and lead away. Only those that all but touch it might be told otherwise by rounding.
         let leaving = cosine.simd_gt(f64x8::splat(simd, TOUCHING)).to_bitmask() as u32;
         let (mut shut, mut unknown) = (0, 0);
         if wanted != 0 {
             let t_max = distance * f64x8::splat(simd, reach);
-            let mut curved = Curved::new();
+            let mut curved = Curved::default();
             let mut cells = ByNumber::new(cells_of(simd, -away), wanted);
             while let Some((cell, lanes)) = cells.next(simd) {
                 let Some(list) = to.listed(cell) else {
@@ -442,12 +456,17 @@ impl World {
                 };
                 for &id in list {
                     let primitive = &self.primitives()[id as usize];
-                    if !primitive.is_flat() {
-                        curved.push((id, lanes));
+                    let off_itself = match primitive.is_flat() {
+                        true => leaving,
+                        false if primitive.is_convex() => leaving & seen.outside,
+                        false => 0,
+                    };
+                    let lanes = lanes & !(seen.lanes_on(id) & off_itself);
+                    if lanes == 0 {
                         continue;
                     }
-                    let lanes = lanes & !(seen.lanes_on(id) & leaving);
-                    if lanes == 0 {
+                    if !primitive.is_flat() {
+                        curved.add(id, lanes & primitive.lanes_near(simd, (start, direction)));
                         continue;
                     }
                     let (_, met) = primitive.meet_lanes(simd, (start, direction), t_max);
@@ -455,7 +474,7 @@ impl World {
                     if primitive.mask & mask != 0 { shut |= met } else { unknown |= met }
                 }
             }
-            if !curved.is_empty() {
+            if !curved.0.is_empty() {
                 let met = self.curved_on_way(&curved, (seen, sights), &t_max.into(), mask);
                 (shut, unknown) = (shut | met[0], unknown | met[1]);
             }
@@ -474,7 +493,7 @@ impl World {
         mask: u32,
     ) -> [u32; 2] {
         let [mut shut, mut other] = [0, 0];
-        for &(id, lanes) in curved {
+        for &(id, lanes) in &curved.0 {
             let primitive = &self.primitives()[id as usize];
             for lane in lanes_of(lanes & !shut) {
                 let ray = Ray { origin: lane_of(&seen.start, lane), direction: lane_of(&sights.direction, lane) };

@@ -82,23 +82,28 @@ fn bucket_index(linear: f32) -> usize {
 /// The buckets from [`SMALLEST`] up to 1. No two steps share one.
 fn srgb_buckets() -> Vec<Bucket> {
     let steps = srgb_steps();
+    let below = |first: f32| steps.partition_point(|&step| step <= first);
     (SMALLEST.to_bits()..1f32.to_bits())
         .step_by(1 << BUCKET_BITS)
         .map(|first| {
-            let below = byte_from_linear(f32::from_bits(first), Transfer::Srgb);
-            Bucket { step: steps.get(usize::from(below)).copied().unwrap_or(f32::INFINITY), below }
+            let below = below(f32::from_bits(first));
+            Bucket { step: steps.get(below).copied().unwrap_or(f32::INFINITY), below: below as u8 }
         })
         .collect()
 }
 
-/// For each byte from 1 to 255 the smallest float that becomes it, found by bisecting the bits of the floats.
+/// For each byte from 1 to 255 the smallest float that becomes it, found by bisecting the bits of the floats: of those near
+/// the one that the inverse of the curve gives, if it is one of them.
 fn srgb_steps() -> Vec<f32> {
     (1..=255u8)
         .map(|byte| {
-            let (mut low, mut high) = (0, 1f32.to_bits());
+            let reaches = |bits: u32| byte_from_linear(f32::from_bits(bits), Transfer::Srgb) >= byte;
+            let about = Transfer::Srgb.linear_from_stored((f32::from(byte) - 0.5) / 255.0).to_bits();
+            let near = (about - 16, about + 16);
+            let (mut low, mut high) = if !reaches(near.0) && reaches(near.1) { near } else { (0, 1f32.to_bits()) };
             while high - low > 1 {
                 let middle = low + (high - low) / 2;
-                if byte_from_linear(f32::from_bits(middle), Transfer::Srgb) >= byte {
+                if reaches(middle) {
                     high = middle;
                 } else {
                     low = middle;
