@@ -69,11 +69,14 @@ pub(crate) struct Flat {
 impl Vantage {
     /// What is seen of these primitives from a point.
     pub(crate) fn new(point: DVec3, boxed: &[Boxed], planes: &[Flat]) -> Vantage {
+        let nearest = nearest_planes(point, planes);
         let each = |visit: &mut dyn FnMut(usize, u32)| {
             for thing in boxed {
                 for_each_cell(point, &thing.bounds, |cell| visit(cell, thing.id));
             }
-            nearest_planes(point, planes, visit);
+            for &(block, id) in &nearest {
+                block.cells().for_each(|cell| visit(cell, id));
+            }
         };
         let mut cells = vec![Cell::default(); CELL_COUNT];
         each(&mut |cell, _| cells[cell].length += 1);
@@ -121,35 +124,53 @@ impl Vantage {
     }
 }
 
-/// Calls `visit` for every cell and the planes that may be the nearest of their mask somewhere in its block, or that do not
-/// hide each other.
+/// Some cells side by side.
+#[derive(Clone, Copy, Debug)]
+struct Block {
+    face: usize,
+    row: usize,
+    column: usize,
+}
+
+impl Block {
+    /// All there are.
+    fn all() -> impl Iterator<Item = Block> {
+        let faces = (0..6).flat_map(|face| (0..BLOCKS).map(move |row| (face, row)));
+        faces.flat_map(|(face, row)| (0..BLOCKS).map(move |column| Block { face, row, column }))
+    }
+
+    fn cells(self) -> impl Iterator<Item = usize> {
+        (self.row * BLOCK..(self.row + 1) * BLOCK).flat_map(move |row| {
+            let first = (self.face * CELLS + row) * CELLS + self.column * BLOCK;
+            first..first + BLOCK
+        })
+    }
+}
+
+/// The planes that may be the nearest of their mask somewhere in a block, or that do not hide each other, for each block.
 ///
 /// In a direction d a plane is at 1/t = -n·d / h, with h the height of the point above it: linear in d, so its greatest
 /// and least values on a block are at the corners.
-fn nearest_planes(point: DVec3, planes: &[Flat], visit: &mut dyn FnMut(usize, u32)) {
+fn nearest_planes(point: DVec3, planes: &[Flat]) -> Vec<(Block, u32)> {
+    let mut found = Vec::new();
     let mut planes = planes.to_vec();
     planes.sort_by_key(|plane| (plane.mask, plane.hides));
     for group in planes.chunk_by(|a, b| a.mask == b.mask && a.hides == b.hides) {
         let nearness: Vec<DVec3> = group.iter().map(|plane| nearness(plane, point)).collect();
         let mut greatest = vec![0.0; group.len()];
-        for block in 0..6 * BLOCKS * BLOCKS {
-            let (face, row, column) = (block / (BLOCKS * BLOCKS), block / BLOCKS % BLOCKS, block % BLOCKS);
+        for block in Block::all() {
             // A plane that is nearer than this nowhere in the block is hidden by another one.
             let mut nearest = 0.0_f64;
             for (nearness, greatest) in nearness.iter().zip(&mut greatest) {
-                let range = nearness_range(*nearness, face, row, column);
+                let range = nearness_range(*nearness, block);
                 nearest = if group[0].hides { nearest.max(range.0) } else { 0.0 };
                 *greatest = range.1;
             }
-            for (plane, _) in group.iter().zip(&greatest).filter(|(_, greatest)| **greatest >= nearest * (1.0 - MARGIN))
-            {
-                for cell_row in row * BLOCK..(row + 1) * BLOCK {
-                    let first = (face * CELLS + cell_row) * CELLS + column * BLOCK;
-                    (first..first + BLOCK).for_each(|cell| visit(cell, plane.id));
-                }
-            }
+            let near = group.iter().zip(&greatest).filter(|(_, greatest)| **greatest >= nearest * (1.0 - MARGIN));
+            found.extend(near.map(|(plane, _)| (block, plane.id)));
         }
     }
+    found
 }
 
 /// What times a direction is one over the distance of a plane; infinite for a plane (all but) through the point, which
@@ -162,7 +183,7 @@ fn nearness(plane: &Flat, point: DVec3) -> DVec3 {
 
 /// The least and the greatest value of `nearness · d` over the directions d of a block; for a plane through the point,
 /// which neither hides nor is hidden, 0 and infinity.
-fn nearness_range(nearness: DVec3, face: usize, row: usize, column: usize) -> (f64, f64) {
+fn nearness_range(nearness: DVec3, Block { face, row, column }: Block) -> (f64, f64) {
     if !nearness.is_finite() {
         return (0.0, f64::INFINITY);
     }

@@ -1,7 +1,7 @@
 //! From linear light to the whole numbers of 8- and 16-bit files, clamped to black and white; NaN becomes black.
 //!
 //! Eight bits are on the way of every picture that is saved, and computing the sRGB curve takes a power for each
-//! component. [`ByteQuantizer`] looks the byte up instead and still gives, for every float, the byte that
+//! component. [`SrgbQuantizer`] looks the byte up instead and still gives, for every float, the byte that
 //! [`byte_from_linear`] computes: the test at the end compares them.
 
 use crate::Transfer;
@@ -15,12 +15,20 @@ pub(crate) fn byte_from_linear(linear: f32, transfer: Transfer) -> u8 {
 
 /// The bytes of these colours, three each.
 pub(crate) fn bytes_from_linear(pixels: &[Rgb], transfer: Transfer) -> Vec<u8> {
-    let quantizer = ByteQuantizer::new(transfer);
-    let mut bytes = vec![0; pixels.len() * 3];
-    for (pixel, bytes) in pixels.iter().zip(bytes.as_chunks_mut::<3>().0) {
-        *bytes = pixel.to_array().map(|v| quantizer.byte(v));
+    fn each(pixels: &[Rgb], byte: impl Fn(f32) -> u8) -> Vec<u8> {
+        let mut bytes = vec![0; pixels.len() * 3];
+        for (pixel, bytes) in pixels.iter().zip(bytes.as_chunks_mut::<3>().0) {
+            *bytes = [byte(pixel.r), byte(pixel.g), byte(pixel.b)];
+        }
+        bytes
     }
-    bytes
+    match transfer {
+        Transfer::Srgb => {
+            let quantizer = SrgbQuantizer::new();
+            each(pixels, |v| quantizer.byte(v))
+        }
+        Transfer::Linear => each(pixels, |v| byte_from_linear(v, transfer)),
+    }
 }
 
 /// The 16-bit number stored for an amount of linear light.
@@ -37,6 +45,9 @@ const LARGEST: f32 = 1.0_f32.next_down();
 /// Floats that agree in all but their last 16 bits share a bucket: 128 buckets for each power of two.
 const BUCKET_BITS: u32 = 16;
 
+/// From [`SMALLEST`] up to 1. No two steps share one.
+const BUCKETS: usize = ((1.0_f32.to_bits() - SMALLEST.to_bits()) >> BUCKET_BITS) as usize;
+
 /// The floats of one bucket become `below`, from `step` on `below + 1`.
 #[derive(Clone, Copy)]
 struct Bucket {
@@ -44,52 +55,36 @@ struct Bucket {
     below: u8,
 }
 
-/// Turns linear light into bytes quickly.
-struct ByteQuantizer {
-    /// Empty for [`Transfer::Linear`], which is quick as it is.
-    buckets: Vec<Bucket>,
+/// Turns linear light into bytes of the sRGB curve quickly.
+struct SrgbQuantizer {
+    buckets: Box<[Bucket; BUCKETS]>,
 }
 
-impl ByteQuantizer {
-    fn new(transfer: Transfer) -> ByteQuantizer {
-        let buckets = match transfer {
-            Transfer::Srgb => srgb_buckets(),
-            Transfer::Linear => Vec::new(),
+impl SrgbQuantizer {
+    fn new() -> SrgbQuantizer {
+        let steps = srgb_steps();
+        let bucket = |index: usize| {
+            let first = f32::from_bits(SMALLEST.to_bits() + ((index as u32) << BUCKET_BITS));
+            let below = steps.partition_point(|&step| step <= first);
+            Bucket { step: steps.get(below).copied().unwrap_or(f32::INFINITY), below: below as u8 }
         };
-        ByteQuantizer { buckets }
+        SrgbQuantizer { buckets: Box::new(std::array::from_fn(bucket)) }
     }
 
     /// The same byte as [`byte_from_linear`], for every float.
+    #[inline(always)]
     fn byte(&self, linear: f32) -> u8 {
-        if self.buckets.is_empty() {
-            return byte_from_linear(linear, Transfer::Linear);
-        }
         // The first bucket is that of black, also for NaN, and the last that of white.
         let linear = if linear > SMALLEST { linear } else { SMALLEST };
         let linear = if linear < LARGEST { linear } else { LARGEST };
-        match self.buckets.get(bucket_index(linear)) {
-            Some(bucket) => bucket.below + u8::from(linear >= bucket.step),
-            None => 255,
-        }
+        let bucket = self.buckets[bucket_index(linear).min(BUCKETS - 1)];
+        bucket.below + u8::from(linear >= bucket.step)
     }
 }
 
 /// The bucket of a float of at least [`SMALLEST`].
 fn bucket_index(linear: f32) -> usize {
     ((linear.to_bits() - SMALLEST.to_bits()) >> BUCKET_BITS) as usize
-}
-
-/// The buckets from [`SMALLEST`] up to 1. No two steps share one.
-fn srgb_buckets() -> Vec<Bucket> {
-    let steps = srgb_steps();
-    let below = |first: f32| steps.partition_point(|&step| step <= first);
-    (SMALLEST.to_bits()..1f32.to_bits())
-        .step_by(1 << BUCKET_BITS)
-        .map(|first| {
-            let below = below(f32::from_bits(first));
-            Bucket { step: steps.get(below).copied().unwrap_or(f32::INFINITY), below: below as u8 }
-        })
-        .collect()
 }
 
 /// For each byte from 1 to 255 the smallest float that becomes it, found by bisecting the bits of the floats: of those near
@@ -118,9 +113,9 @@ fn srgb_steps() -> Vec<f32> {
 mod tests {
     use super::*;
 
-    fn check(quantizer: &ByteQuantizer, transfer: Transfer, bits: u32) {
+    fn check(quantizer: &SrgbQuantizer, bits: u32) {
         let x = f32::from_bits(bits);
-        assert_eq!(quantizer.byte(x), byte_from_linear(x, transfer), "{x:e} ({bits:#x}), {transfer:?}");
+        assert_eq!(quantizer.byte(x), byte_from_linear(x, Transfer::Srgb), "{x:e} ({bits:#x})");
     }
 
     #[test]
@@ -135,34 +130,32 @@ mod tests {
 
     #[test]
     fn agrees_with_the_definition_around_every_step() {
-        let quantizer = ByteQuantizer::new(Transfer::Srgb);
+        let quantizer = SrgbQuantizer::new();
         for step in srgb_steps() {
             for bits in step.to_bits() - 2000..=step.to_bits() + 2000 {
-                check(&quantizer, Transfer::Srgb, bits);
+                check(&quantizer, bits);
             }
         }
     }
 
     #[test]
     fn agrees_with_the_definition_over_all_floats() {
-        for transfer in [Transfer::Srgb, Transfer::Linear] {
-            let quantizer = ByteQuantizer::new(transfer);
-            (0..=u32::MAX).step_by(4093).for_each(|bits| check(&quantizer, transfer, bits));
-        }
+        let quantizer = SrgbQuantizer::new();
+        (0..=u32::MAX).step_by(4093).for_each(|bits| check(&quantizer, bits));
     }
 
     #[test]
     fn agrees_with_the_definition_for_every_float_from_black_to_white() {
-        let quantizer = ByteQuantizer::new(Transfer::Srgb);
-        (0..=1f32.to_bits()).for_each(|bits| check(&quantizer, Transfer::Srgb, bits));
+        let quantizer = SrgbQuantizer::new();
+        (0..=1f32.to_bits()).for_each(|bits| check(&quantizer, bits));
     }
 
     #[test]
     fn out_of_range_is_clamped_and_nan_is_black() {
         for transfer in [Transfer::Srgb, Transfer::Linear] {
-            let quantizer = ByteQuantizer::new(transfer);
-            let bytes = [-1.0, -0.0, 1.0, 7.0, f32::INFINITY, f32::NEG_INFINITY, f32::NAN].map(|x| quantizer.byte(x));
-            assert_eq!(bytes, [0, 0, 255, 255, 255, 0, 0]);
+            let values = [-1.0, -0.0, 1.0, 7.0, f32::INFINITY, f32::NEG_INFINITY, f32::NAN, 0.0, 1.0];
+            let colors: Vec<Rgb> = values.as_chunks().0.iter().map(|&[r, g, b]| Rgb::new(r, g, b)).collect();
+            assert_eq!(bytes_from_linear(&colors, transfer), [0, 0, 255, 255, 255, 0, 0, 0, 255]);
             let words = [-1.0, 1.0, 7.0, f32::INFINITY, f32::NAN].map(|x| word_from_linear(x, transfer));
             assert_eq!(words, [0, 65535, 65535, 65535, 0]);
         }

@@ -5,8 +5,8 @@ use durer_math::DVec2;
 
 /// `n` × `n` samples, each in the middle of its cell.
 pub(crate) struct Grid {
-    /// Of the cells along a side of the pixel, in units of it.
-    middles: Vec<f64>,
+    /// From the corner of the pixel, row by row.
+    points: Vec<DVec2>,
     /// Of a sample.
     weight: f32,
 }
@@ -15,30 +15,23 @@ impl Grid {
     /// So many samples along a side.
     pub(crate) fn new(n: u32) -> Grid {
         let cell = 1.0 / f64::from(n);
-        Grid { middles: (0..n).map(|i| (f64::from(i) + 0.5) * cell).collect(), weight: 1.0 / (n * n) as f32 }
-    }
-
-    #[inline(always)]
-    fn each_point(&self, corner: DVec2, mut visit: impl FnMut(DVec2)) {
-        for &y in &self.middles {
-            for &x in &self.middles {
-                visit(corner + DVec2::new(x, y));
-            }
-        }
+        let within = |row: u32, column: u32| DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5) * cell;
+        let points = (0..n).flat_map(|row| (0..n).map(move |column| within(row, column))).collect();
+        Grid { points, weight: 1.0 / (n * n) as f32 }
     }
 }
 
 impl Antialias for Grid {
     fn certain(&self, corner: DVec2, points: &mut Vec<DVec2>) {
-        self.each_point(corner, |point| points.push(point));
+        points.extend(self.points.iter().map(|&point| corner + point));
     }
 
     #[inline]
     fn pixel(&self, corner: DVec2, samples: &mut impl Samples) {
-        self.each_point(corner, |point| {
-            let sample = samples.take(point);
+        for &point in &self.points {
+            let sample = samples.take(corner + point);
             samples.keep(self.weight, sample);
-        });
+        }
     }
 }
 
