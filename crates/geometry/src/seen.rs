@@ -313,7 +313,7 @@ impl World {
                 lost |= lanes;
                 continue;
             };
-            for &id in list {
+            for id in list.iter().copied().map(u32::from) {
                 let primitive = &self.primitives()[id as usize];
                 if primitive.mask == 0 {
                     continue;
@@ -454,7 +454,7 @@ impl World {
                     unknown |= lanes;
                     continue;
                 };
-                for &id in list {
+                for id in list.iter().copied().map(u32::from) {
                     let primitive = &self.primitives()[id as usize];
                     let off_itself = match primitive.is_flat() {
                         true => leaving,

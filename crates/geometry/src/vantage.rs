@@ -25,7 +25,7 @@ pub(crate) const MOST_BOUNDED: usize = 256;
 pub(crate) const MOST_PLANES: usize = 16;
 
 /// A cell that more primitives are seen through has no list; its rays go through the tree.
-const LONGEST_LIST: u32 = 12;
+const LONGEST_LIST: usize = 12;
 
 /// Projections are widened by this much of the cube's half edge, for the rounding of rays and of the
 /// look-up, which is in single precision.
@@ -36,15 +36,34 @@ const MARGIN: f64 = 1e-6;
 pub struct Vantage {
     point: DVec3,
     cells: Vec<Cell>,
-    /// The lists of all cells, one after the other.
-    ids: Vec<u32>,
+    /// The lists of all cells, one after the other. There are few enough primitives that 16 bits hold their indices.
+    ids: Vec<u16>,
 }
 
-/// Where a cell's list is.
+/// Where a cell's list is: its start in the lower 24 bits, its length above. Memory that is touched first costs more time than
+/// taking this apart.
 #[derive(Clone, Copy, Debug, Default)]
-struct Cell {
-    start: u32,
-    length: u32,
+struct Cell(u32);
+
+impl Cell {
+    #[inline(always)]
+    fn start(self) -> usize {
+        (self.0 & 0xff_ffff) as usize
+    }
+
+    /// Of a list that is too long, more than [`LONGEST_LIST`].
+    #[inline(always)]
+    fn length(self) -> usize {
+        (self.0 >> 24) as usize
+    }
+
+    fn starting_at(start: usize) -> Cell {
+        Cell(start as u32)
+    }
+
+    fn one_more(self) -> Cell {
+        if self.length() > LONGEST_LIST { self } else { Cell(self.0 + (1 << 24)) }
+    }
 }
 
 /// A primitive in a box.
@@ -79,18 +98,19 @@ impl Vantage {
             }
         };
         let mut cells = vec![Cell::default(); CELL_COUNT];
-        each(&mut |cell, _| cells[cell].length += 1);
+        each(&mut |cell, _| cells[cell] = cells[cell].one_more());
         // Only lists that are short enough to be used take room.
         let mut room = 0;
-        for cell in cells.iter_mut().filter(|cell| cell.length <= LONGEST_LIST) {
-            (cell.start, room) = (room, room + cell.length);
+        for cell in cells.iter_mut().filter(|cell| cell.length() <= LONGEST_LIST) {
+            let length = cell.length();
+            (*cell, room) = (Cell::starting_at(room), room + length);
         }
-        let mut next: Vec<u32> = cells.iter().map(|cell| cell.start).collect();
-        let mut ids = vec![0; room as usize];
+        let mut ids = vec![0; room];
         each(&mut |cell, id| {
-            if cells[cell].length <= LONGEST_LIST {
-                ids[next[cell] as usize] = id;
-                next[cell] += 1;
+            let cell = &mut cells[cell];
+            if cell.length() <= LONGEST_LIST {
+                ids[cell.start() + cell.length()] = id as u16;
+                *cell = cell.one_more();
             }
         });
         Vantage { point, cells, ids }
@@ -98,7 +118,7 @@ impl Vantage {
 
     /// The primitives that can be met between a place and the point; `None` if they are too many to list.
     #[inline(always)]
-    pub(crate) fn candidates_towards(&self, place: DVec3) -> Option<&[u32]> {
+    pub(crate) fn candidates_towards(&self, place: DVec3) -> Option<&[u16]> {
         // Not from a ray's direction, which is ready only after a root and a division.
         self.candidates(place - self.point)
     }
@@ -106,7 +126,7 @@ impl Vantage {
     /// The primitives that a ray from the point in this direction (of any length) can meet first; `None` if they are too
     /// many to list.
     #[inline(always)]
-    pub(crate) fn candidates(&self, direction: DVec3) -> Option<&[u32]> {
+    pub(crate) fn candidates(&self, direction: DVec3) -> Option<&[u16]> {
         self.listed(cell_of(direction))
     }
 
@@ -118,9 +138,9 @@ impl Vantage {
 
     /// The list of a cell, as [`cells_of`] numbers them.
     #[inline(always)]
-    pub(crate) fn listed(&self, cell: usize) -> Option<&[u32]> {
-        let Cell { start, length } = self.cells[cell];
-        if length > LONGEST_LIST { None } else { self.ids.get(start as usize..(start + length) as usize) }
+    pub(crate) fn listed(&self, cell: usize) -> Option<&[u16]> {
+        let cell = self.cells[cell];
+        if cell.length() > LONGEST_LIST { None } else { self.ids.get(cell.start()..cell.start() + cell.length()) }
     }
 }
 
@@ -361,9 +381,9 @@ mod tests {
     fn a_box_in_front_is_not_listed_behind() {
         let bounds = Bounds { min: DVec3::new(4.0, -1.0, -1.0), max: DVec3::new(6.0, 1.0, 1.0) };
         let vantage = Vantage::new(DVec3::ZERO, &[Boxed { id: 0, bounds }], &[]);
-        assert_eq!(vantage.candidates(DVec3::X).map(<[u32]>::len), Some(1));
+        assert_eq!(vantage.candidates(DVec3::X).map(<[u16]>::len), Some(1));
         for away in [DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::new(1.0, 0.5, 0.0)] {
-            assert_eq!(vantage.candidates(away).map(<[u32]>::len), Some(0));
+            assert_eq!(vantage.candidates(away).map(<[u16]>::len), Some(0));
         }
     }
 
@@ -392,7 +412,7 @@ mod tests {
                 for mask in [1, 2] {
                     let hit = planes.iter().filter(|p| p.mask == mask && t(p) > 0.0);
                     if let Some(nearest) = hit.min_by(|a, b| t(a).total_cmp(&t(b))) {
-                        assert!(candidates.contains(&nearest.id));
+                        assert!(candidates.contains(&(nearest.id as u16)));
                     }
                 }
             }

@@ -1,7 +1,7 @@
 //! From linear light to the whole numbers of 8- and 16-bit files, clamped to black and white; NaN becomes black.
 //!
 //! Eight bits are on the way of every picture that is saved, and computing the sRGB curve takes a power for each
-//! component. [`SrgbQuantizer`] looks the byte up instead and still gives, for every float, the byte that
+//! component. [`ByteQuantizer`] looks the byte up instead and still gives, for every float, the byte that
 //! [`byte_from_linear`] computes: the test at the end compares them.
 
 use crate::Transfer;
@@ -15,19 +15,41 @@ pub(crate) fn byte_from_linear(linear: f32, transfer: Transfer) -> u8 {
 
 /// The bytes of these colours, three each.
 pub(crate) fn bytes_from_linear(pixels: &[Rgb], transfer: Transfer) -> Vec<u8> {
-    fn each(pixels: &[Rgb], byte: impl Fn(f32) -> u8) -> Vec<u8> {
-        let mut bytes = vec![0; pixels.len() * 3];
-        for (pixel, bytes) in pixels.iter().zip(bytes.as_chunks_mut::<3>().0) {
-            *bytes = [byte(pixel.r), byte(pixel.g), byte(pixel.b)];
+    let mut bytes = vec![0; pixels.len() * 3];
+    ByteQuantizer::new(transfer).put(pixels, &mut bytes);
+    bytes
+}
+
+/// Turns linear light into bytes quickly.
+pub(crate) enum ByteQuantizer {
+    /// By the curve of sRGB.
+    Srgb(SrgbQuantizer),
+    /// As it is, which is quick.
+    Linear,
+}
+
+impl ByteQuantizer {
+    pub(crate) fn new(transfer: Transfer) -> ByteQuantizer {
+        match transfer {
+            Transfer::Srgb => ByteQuantizer::Srgb(SrgbQuantizer::new()),
+            Transfer::Linear => ByteQuantizer::Linear,
         }
-        bytes
     }
-    match transfer {
-        Transfer::Srgb => {
-            let quantizer = SrgbQuantizer::new();
-            each(pixels, |v| quantizer.byte(v))
+
+    /// Puts the bytes of some colours, three each.
+    #[inline]
+    pub(crate) fn put(&self, pixels: &[Rgb], bytes: &mut [u8]) {
+        match self {
+            ByteQuantizer::Srgb(srgb) => put_each(pixels, bytes, |v| srgb.byte(v)),
+            ByteQuantizer::Linear => put_each(pixels, bytes, |v| byte_from_linear(v, Transfer::Linear)),
         }
-        Transfer::Linear => each(pixels, |v| byte_from_linear(v, transfer)),
+    }
+}
+
+#[inline(always)]
+fn put_each(pixels: &[Rgb], bytes: &mut [u8], byte: impl Fn(f32) -> u8) {
+    for (pixel, bytes) in pixels.iter().zip(bytes.as_chunks_mut::<3>().0) {
+        *bytes = [byte(pixel.r), byte(pixel.g), byte(pixel.b)];
     }
 }
 
@@ -56,7 +78,7 @@ struct Bucket {
 }
 
 /// Turns linear light into bytes of the sRGB curve quickly.
-struct SrgbQuantizer {
+pub(crate) struct SrgbQuantizer {
     buckets: Box<[Bucket; BUCKETS]>,
 }
 
