@@ -397,12 +397,19 @@ fn render_tile<A: Antialias>(scene: &CompiledScene, region: Region, antialias: &
     let mut first_hits = FirstHits::default();
     for part in FirstHits::parts(scene, region) {
         first_hits.find(scene, antialias, part);
-        for (index, (x, y)) in part.pixel_places().enumerate() {
-            let known = first_hits.of_pixel(index);
-            let pixel = render_pixel(scene, (&integrator, antialias), (x, y), known, &mut tile.account);
-            let color = if pixel.has_bad_samples { without_bad_samples(scene, antialias, (x, y)) } else { pixel.color };
-            tile.pixels.push(color);
-            tile.depths.push(pixel.depth);
+        for y in part.y..part.y + part.height {
+            let (row, row_of_part) = ((y - region.y) * region.width, (y - part.y) * part.width);
+            // By `extend`, which asks only once whether there is room.
+            tile.pixels.extend((0..part.width).map(|column| {
+                let known = first_hits.of_pixel((row_of_part + column) as usize);
+                let (x, account) = (part.x + column, &mut tile.account);
+                let pixel = render_pixel(scene, (&integrator, antialias), (x, y), known, account);
+                if pixel.depth > 0 {
+                    tile.depths.resize(region.pixels() as usize, 0);
+                    tile.depths[(row + column) as usize] = pixel.depth;
+                }
+                if pixel.has_bad_samples { without_bad_samples(scene, antialias, (x, y)) } else { pixel.color }
+            }));
         }
     }
     tile
