@@ -58,6 +58,12 @@ impl Bounds {
         if self.is_empty() { DVec3::ZERO } else { self.max - self.min }
     }
 
+    /// The eight corners.
+    pub fn corners(&self) -> [DVec3; 8] {
+        let end = |index: usize, bit: usize| if index >> bit & 1 == 0 { self.min } else { self.max };
+        std::array::from_fn(|index| DVec3::new(end(index, 0).x, end(index, 1).y, end(index, 2).z))
+    }
+
     /// Half the surface area, for the surface area heuristic; zero if empty.
     pub fn half_area(&self) -> f64 {
         let d = self.size();

@@ -63,6 +63,8 @@ mod flat;
 pub(crate) mod operand;
 mod pieces;
 
+pub use pieces::Aimable;
+
 /// A shape placed in the world by an affine map, which may scale, shear and mirror it.
 #[derive(Clone, Debug)]
 pub struct Primitive {

@@ -4,6 +4,16 @@ use crate::textures::Environment;
 use durer_math::{DVec3, Rgb};
 use durer_scene::Scene;
 
+/// What is seen in a direction, and what it takes to know how often that is aimed at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Look {
+    /// Unit length.
+    pub(crate) direction: DVec3,
+    pub(crate) light: Rgb,
+    /// Where it is in the picture, if the background is one.
+    pub(crate) place: [f64; 2],
+}
+
 /// The background, compiled.
 #[derive(Debug)]
 pub(crate) enum Background {
@@ -27,6 +37,19 @@ impl Background {
             durer_scene::Background::Color(color) => Background::Color(color),
             durer_scene::Background::Gradient { bottom, top } => Background::Gradient { bottom, top },
             durer_scene::Background::Image(map) => Background::Image(Environment::compile(&map, scene)),
+        }
+    }
+
+    /// A look in a direction of unit length.
+    pub(crate) fn look(&self, direction: DVec3) -> Look {
+        match self {
+            Background::Color(_) | Background::Gradient { .. } => {
+                Look { direction, light: self.seen(direction), place: [0.0; 2] }
+            }
+            Background::Image(map) => {
+                let place = map.place(direction);
+                Look { direction, light: map.seen_at(place), place }
+            }
         }
     }
 

@@ -8,6 +8,7 @@ mod shapes;
 mod sky;
 mod tree;
 
+use crate::background::Look;
 use crate::compile::CompiledScene;
 use crate::lights::{Arriving, Light};
 use durer_geometry::{Bounds, Hit, Ray, Surface};
@@ -151,8 +152,7 @@ impl Emitters {
     }
 
     fn sample_sky(&self, scene: &CompiledScene, receiver: &Receiver, at: DVec2) -> Option<LightSample> {
-        let (direction, pdf) = self.sky.as_ref()?.sample(&scene.background, receiver, at)?;
-        let light = scene.background.seen(direction);
+        let (Look { direction, light, .. }, pdf) = self.sky.as_ref()?.sample(&scene.background, receiver, at)?;
         Some(LightSample { direction, distance: f64::INFINITY, light, pdf, is_point: false, lamp: None })
     }
 
@@ -186,14 +186,13 @@ impl Emitters {
         if probability <= 0.0 {
             return 0.0;
         }
-        let primitive = &scene.world.primitives()[hit.primitive as usize];
-        probability * primitive.pdf_of_aim(receiver.point, surface.point, hit.crossing.part)
+        probability * self.shapes.pdf(scene, id as usize, receiver.point, surface.point, hit.crossing.part)
     }
 
-    /// The density with which [`Emitters::sample`] finds this direction of the background.
-    pub(crate) fn pdf_of_background(&self, scene: &CompiledScene, receiver: &Receiver, direction: DVec3) -> f64 {
+    /// The density with which [`Emitters::sample`] finds what is seen of the background.
+    pub(crate) fn pdf_of_background(&self, scene: &CompiledScene, receiver: &Receiver, look: &Look) -> f64 {
         let Some(sky) = &self.sky else { return 0.0 };
-        self.chances(receiver)[SKY] * sky.pdf(&scene.background, receiver, direction)
+        self.chances(receiver)[SKY] * sky.pdf(&scene.background, receiver, look)
     }
 
     /// How often each kind is chosen.

@@ -81,11 +81,17 @@ impl Sampler {
 
     /// A number from 0 to less than 1, for the surface that the ray of this depth has hit (0 before there is any).
     pub(crate) fn one(&self, depth: u32, purpose: Purpose) -> f64 {
-        self.two(depth, purpose).x
+        self.at(depth, purpose).x
     }
 
     /// A point of the unit square, right and upper edge excluded.
     pub(crate) fn two(&self, depth: u32, purpose: Purpose) -> DVec2 {
+        self.at(depth, purpose)
+    }
+
+    /// Inlined, so that the compiler drops the coordinate that is not looked at.
+    #[inline(always)]
+    fn at(&self, depth: u32, purpose: Purpose) -> DVec2 {
         let pair = self.key.wrapping_add((u64::from(depth) << 8 | purpose as u64).wrapping_mul(GOLDEN));
         let (order, scramble) = (mix(pair), mix(pair ^ 0x5851_f42d_4c95_7f2d));
         let index = if purpose == Purpose::Pixel { self.index } else { shuffle(self.index, order as u32) };

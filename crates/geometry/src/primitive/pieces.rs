@@ -2,13 +2,36 @@
 //!
 //! A piece is known by its element: the first of the parts that belong to it.
 
-use super::{Kind, Primitive};
+use super::{Kind, Primitive, Surface};
 use crate::Ray;
 use crate::sample::{Aim, Extent, Piece, Shows};
+use crate::shapes::Shape;
 use durer_math::{DAffine3, DMat3, DVec2, DVec3};
 
 /// How far, relative to the distance, a point may seem to be from the crossing that it is.
 const SAME: f64 = 1e-7;
+
+/// An element of a primitive that is aimed at: what of that depends on neither eye nor chance.
+#[derive(Clone, Copy, Debug)]
+pub struct Aimable {
+    piece: Piece,
+    flat: Option<Flat>,
+}
+
+/// What all points of a flat element have in common, as [`Surface`] means it.
+#[derive(Clone, Copy, Debug)]
+struct Flat {
+    normal: DVec3,
+    offset: f64,
+}
+
+impl Aimable {
+    /// The density, per solid angle, with which [`Primitive::aim`] finds a point on a part of it, as seen from somewhere.
+    pub fn pdf(&self, from: DVec3, point: DVec3, part: u32) -> f64 {
+        let pdf = self.piece.pdf(from, point, part);
+        if pdf > 0.0 && pdf.is_finite() { pdf } else { 0.0 }
+    }
+}
 
 impl Primitive {
     /// Calls `visit` with each element: the triangles of a mesh, particles, those of a solid's operands, or 0 for all of
@@ -66,12 +89,29 @@ impl Primitive {
         Some(Extent { bounds, area, normal, is_closed: self.has_inside() })
     }
 
-    /// A point on an element, chosen by two numbers from 0 to 1 as seen from somewhere; `None` if that one is not seen from
-    /// there, or not there at all: of a solid, because it is cut away.
-    pub fn aim(&self, element: u32, from: DVec3, at: DVec2) -> Option<Aim> {
+    /// An element to be aimed at; `None` if it has no end.
+    pub fn aimable(&self, element: u32) -> Option<Aimable> {
         let piece = self.piece(element)?;
-        let chosen = piece.sample(from, at)?;
-        let surface = self.surface_near(chosen.point, chosen.part);
+        let flat = self.flat.map(|(normal, _)| {
+            // What is rounded grows with coordinates, so that it is most at a corner.
+            let offset = |corner: DVec3| {
+                let corner = self.origin + self.world_from_shape * corner;
+                self.surface_near(corner, piece.first_part()).offset
+            };
+            let corners = each_kind!(&self.kind, shape => shape.bounds()).corners();
+            Flat { normal, offset: corners.map(offset).into_iter().fold(0.0, f64::max) }
+        });
+        Some(Aimable { piece, flat })
+    }
+
+    /// A point on one of its elements, chosen by two numbers from 0 to 1 as seen from somewhere; `None` if that one is not seen
+    /// from there, or not there at all: of a solid, because it is cut away.
+    pub fn aim(&self, target: &Aimable, from: DVec3, at: DVec2) -> Option<Aim> {
+        let chosen = target.piece.sample(from, at)?;
+        let surface = match target.flat {
+            Some(Flat { normal, offset }) => Surface { point: chosen.point, normal, offset },
+            None => self.surface_near(chosen.point, chosen.part),
+        };
         let side = surface.normal.dot(from - surface.point);
         // From a place on the surface itself there is nothing to see, but for rounding.
         if side.abs() <= 2.0 * surface.offset {
@@ -82,12 +122,6 @@ impl Primitive {
         let aim = Aim { surface, part: chosen.part, direction: way / distance, distance, pdf: chosen.pdf };
         let is_usable = distance > 0.0 && distance.is_finite() && aim.pdf > 0.0 && aim.pdf.is_finite();
         (is_usable && self.is_met(from, &aim)).then_some(aim)
-    }
-
-    /// The density, per solid angle, with which [`Primitive::aim`] finds a point on a part, as seen from somewhere.
-    pub fn pdf_of_aim(&self, from: DVec3, point: DVec3, part: u32) -> f64 {
-        let pdf = self.piece(self.element_of(part)).map_or(0.0, |piece| piece.pdf(from, point, part));
-        if pdf > 0.0 && pdf.is_finite() { pdf } else { 0.0 }
     }
 
     /// True if a ray crosses the surface where it is aimed. Only of solids is there less than what is aimed at; and of two

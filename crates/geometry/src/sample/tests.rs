@@ -35,9 +35,10 @@ fn agrees(primitive: &Primitive, from: DVec3) {
         if primitive.extent(element).is_none() {
             return;
         }
+        let aimable = primitive.aimable(element).unwrap();
         for at in plane_points(SAMPLES) {
-            let Some(aim) = primitive.aim(element, from, at) else { continue };
-            let again = primitive.pdf_of_aim(from, aim.surface.point, aim.part);
+            let Some(aim) = primitive.aim(&aimable, from, at) else { continue };
+            let again = aimable.pdf(from, aim.surface.point, aim.part);
             let facing = aim.direction.dot(aim.surface.normal).abs();
             let is_same = (again / aim.pdf - 1.0).abs() < 1e-5;
             assert!(is_same || facing < 1e-3, "{again} is not {}, at {at}", aim.pdf);
@@ -62,7 +63,8 @@ fn agrees(primitive: &Primitive, from: DVec3) {
         let direction = super::ball::on_sphere(at);
         let share = 4.0 * PI / f64::from(DIRECTIONS);
         primitive.each_crossing(&Ray { origin: from, direction }, f64::INFINITY, |_, crossing, surface| {
-            let pdf = primitive.pdf_of_aim(from, surface.point, crossing.part);
+            let aimable = primitive.aimable(primitive.element_of(crossing.part));
+            let pdf = aimable.map_or(0.0, |aimable| aimable.pdf(from, surface.point, crossing.part));
             if pdf > 0.0 {
                 // Where a surface is seen edge-on, its density may be without bound, but not this.
                 total += pdf * direction.dot(surface.normal).abs() * share;
@@ -238,7 +240,8 @@ fn solids() {
 /// The irradiance, over π, on a patch at `from` that faces `normal`, of a shape that gives off light everywhere.
 fn form_factor(primitive: &Primitive, from: DVec3, normal: DVec3) -> f64 {
     const SAMPLES: u32 = 1 << 14;
-    let aims = plane_points(SAMPLES).filter_map(|at| primitive.aim(0, from, at));
+    let aimable = primitive.aimable(0).unwrap();
+    let aims = plane_points(SAMPLES).filter_map(|at| primitive.aim(&aimable, from, at));
     aims.map(|aim| aim.direction.dot(normal).max(0.0) / aim.pdf).sum::<f64>() / (f64::from(SAMPLES) * PI)
 }
 
@@ -306,9 +309,10 @@ fn nasty_places_give_no_nonsense() {
     }
     let edges = [0.0, 1e-17, 0.3, 0.5, 1.0 - 1e-16];
     for (index, shape) in shapes.iter().enumerate() {
+        let aimable = shape.aimable(0).unwrap();
         for &from in &places {
             for at in edges.into_iter().flat_map(|x| edges.map(|y| DVec2::new(x, y))) {
-                let Some(aim) = shape.aim(0, from, at) else { continue };
+                let Some(aim) = shape.aim(&aimable, from, at) else { continue };
                 let usable = aim.pdf > 0.0 && aim.pdf.is_finite() && aim.distance > 0.0 && aim.direction.is_finite();
                 assert!(usable && aim.direction.is_normalized(), "shape {index} from {from} at {at}: {aim:?}");
                 assert!(aim.surface.point.is_finite() && aim.surface.offset.is_finite());
@@ -329,9 +333,10 @@ fn what_is_aimed_at_does_not_hide_itself() {
         Primitive::rectangle(DVec3::ZERO, [DVec3::X, DVec3::Z], &map),
     ];
     for (index, shape) in shapes.iter().enumerate() {
+        let aimable = shape.aimable(0).unwrap();
         for angle in (0..40).map(f64::from) {
             let from = DVec3::new(9.0 * cos(angle), 0.2 * angle - 4.0, 9.0 * sin(angle));
-            let aims = plane_points(500).filter_map(|at| shape.aim(0, from, at));
+            let aims = plane_points(500).filter_map(|at| shape.aim(&aimable, from, at));
             let hidden = aims.filter(|aim| {
                 let ray = Ray { origin: from, direction: aim.direction };
                 shape.meets(&ray, aim.distance * (1.0 - 1e-12))

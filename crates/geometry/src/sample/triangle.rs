@@ -1,9 +1,9 @@
-//! Aiming at a triangle: uniform in the solid angle that it fills.
+//! Aiming at a triangle: uniform in the solid angle that it fills, or by area from where that is hardly something else.
 //!
 //! Arvo, "Stratified Sampling of Spherical Triangles", SIGGRAPH 1995. The solid angle is by van Oosterom and Strackee, "The
 //! Solid Angle of a Plane Triangle", IEEE Trans. Biomed. Eng. 30(2), 1983.
 
-use super::{Chosen, Target, per_solid_angle};
+use super::{Chosen, FAR, Target, per_solid_angle};
 use durer_math::functions::{atan2, cos, sin};
 use durer_math::{DVec2, DVec3};
 
@@ -39,8 +39,23 @@ impl Triangle {
         a + ((b - a) + (c - a)) / 3.0
     }
 
-    /// The directions of the corners, of unit length, and the solid angle; `None` if that is too small or too large.
+    /// True if no point of it is much farther away than another, by the ball around its middle.
+    fn is_far(&self, from: DVec3) -> bool {
+        // (d + r)² ≤ FAR (d - r)².
+        const { assert!(FAR == 2.0) };
+        const RATIO: f64 = 3.0 + 2.0 * std::f64::consts::SQRT_2;
+        let middle = self.middle();
+        let squared = |corner: DVec3| (corner - middle).length_squared();
+        let [a, b, c] = self.corners.map(squared);
+        (from - middle).length_squared() >= RATIO * RATIO * a.max(b).max(c)
+    }
+
+    /// The directions of the corners, of unit length, and the solid angle; `None` if that is too small or too large, or from
+    /// so far that area serves as well.
     fn seen(&self, from: DVec3) -> Option<([DVec3; 3], f64)> {
+        if self.is_far(from) {
+            return None;
+        }
         let [a, b, c] = self.corners.map(|corner| (corner - from).normalize_or_zero());
         let triple = a.dot(b.cross(c)).abs();
         let solid_angle = 2.0 * atan2(triple, 1.0 + a.dot(b) + b.dot(c) + c.dot(a));

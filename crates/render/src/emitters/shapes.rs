@@ -4,7 +4,7 @@ use super::LightSample;
 use super::tree::{Cone, Faces, Item};
 use crate::compile::CompiledScene;
 use crate::shading::Shading;
-use durer_geometry::{Aim, Crossing, Extent, Hit, Primitive, Ray};
+use durer_geometry::{Aim, Aimable, Crossing, Extent, Hit, Primitive, Ray};
 use durer_math::{DVec2, DVec3, Rgb};
 use durer_scene::{Emission, Paint, Sides};
 use rayon::prelude::*;
@@ -17,6 +17,19 @@ const MOST: usize = 1 << 23;
 pub(crate) struct Shapes {
     /// In ascending order.
     elements: Vec<Element>,
+    /// What can be known of each before it is aimed at; of none if they are more than [`MOST_READY`].
+    ready: Vec<Option<Ready>>,
+}
+
+/// For more elements than this, what is known of them is found out anew each time they are aimed at: memory.
+const MOST_READY: usize = 1 << 16;
+
+/// What can be known of an element before it is aimed at.
+#[derive(Clone, Copy, Debug)]
+struct Ready {
+    aimable: Aimable,
+    /// Radiance and sides, if they are the same all over it.
+    plain: Option<(Rgb, Sides)>,
 }
 
 /// Something that is aimed at as a whole.
@@ -48,7 +61,11 @@ impl Shapes {
         }
         let item = |(id, element): (usize, &Element)| item(scene, element, id as u32);
         let items = elements.par_iter().enumerate().filter_map(item).collect();
-        (Shapes { elements }, items)
+        let ready = match elements.len() <= MOST_READY {
+            true => elements.iter().map(|&element| Ready::of(scene, element)).collect(),
+            false => Vec::new(),
+        };
+        (Shapes { elements, ready }, items)
     }
 
     /// How many there are.
@@ -68,11 +85,40 @@ impl Shapes {
 
     /// A point on one of them, and what it gives off from there to a point; `None` if that is nothing.
     pub(crate) fn aim(&self, scene: &CompiledScene, index: usize, from: DVec3, at: DVec2) -> Option<LightSample> {
-        let Element { primitive, element } = self.elements[index];
-        let aim = scene.world.primitives()[primitive as usize].aim(element, from, at)?;
-        let light = given_off(scene, primitive, &aim, from);
+        let Element { primitive, .. } = self.elements[index];
+        let Ready { aimable, plain } = match self.ready.get(index) {
+            Some(ready) => ready.as_ref()?,
+            None => &Ready::of(scene, self.elements[index])?,
+        };
+        let aim = scene.world.primitives()[primitive as usize].aim(aimable, from, at)?;
+        let light = match plain {
+            Some((light, sides)) if *sides == Sides::Both || aim.direction.dot(aim.surface.normal) < 0.0 => *light,
+            Some(_) => return None,
+            None => given_off(scene, primitive, &aim, from),
+        };
         let Aim { direction, distance, pdf, .. } = aim;
         (!light.is_black()).then_some(LightSample { direction, distance, light, pdf, is_point: false, lamp: None })
+    }
+
+    /// The density, per solid angle, with which [`Shapes::aim`] finds a point on one of them.
+    pub(super) fn pdf(&self, scene: &CompiledScene, index: usize, from: DVec3, point: DVec3, part: u32) -> f64 {
+        match self.ready.get(index) {
+            Some(ready) => ready.as_ref().map_or(0.0, |ready| ready.aimable.pdf(from, point, part)),
+            None => Ready::of(scene, self.elements[index]).map_or(0.0, |ready| ready.aimable.pdf(from, point, part)),
+        }
+    }
+}
+
+impl Ready {
+    fn of(scene: &CompiledScene, Element { primitive, element }: Element) -> Option<Ready> {
+        let aimable = scene.world.primitives()[primitive as usize].aimable(element)?;
+        let material = &scene.materials[scene.material_at(&hit_of(primitive, element)) as usize];
+        let emission = material.emission?;
+        let plain = match (emission.color, material.opacity) {
+            (Paint::Color(color), None) => Some((color * emission.strength, emission.sides)),
+            (Paint::Color(_) | Paint::Texture(_), _) => None,
+        };
+        Some(Ready { aimable, plain })
     }
 }
 
@@ -85,14 +131,6 @@ fn emission_of(scene: &CompiledScene, primitive: u32, part: u32) -> Option<Emiss
 /// The radiance from a point on a primitive to one that sees it; of what is but partly there, that part.
 fn given_off(scene: &CompiledScene, primitive: u32, aim: &Aim, from: DVec3) -> Rgb {
     let hit = Hit { crossing: Crossing { t: aim.distance, part: aim.part }, primitive };
-    let material = &scene.materials[scene.material_at(&hit) as usize];
-    let Some(emission) = material.emission else { return Rgb::BLACK };
-    if !material.glows(aim.direction.dot(aim.surface.normal) < 0.0) {
-        return Rgb::BLACK;
-    }
-    if let (Paint::Color(color), None) = (emission.color, material.opacity) {
-        return color * emission.strength;
-    }
     let shading = Shading::at(scene, &Ray { origin: from, direction: aim.direction }, &hit);
     shading.opacity.map_or(shading.emission, |opacity| shading.emission * opacity)
 }
@@ -128,6 +166,7 @@ fn hit_of(primitive: u32, part: u32) -> Hit {
 /// The mean of what is given off where textures decide, by a few looks from outside: two at what is flat, from both sides.
 fn mean_luminance(scene: &CompiledScene, shape: &Primitive, extent: &Extent, primitive: u32, element: u32) -> f64 {
     const AWAY: f64 = 4.0;
+    let Some(aimable) = shape.aimable(element) else { return 0.0 };
     let (middle, size) = (extent.bounds.center(), extent.bounds.size().length().max(f64::MIN_POSITIVE));
     let (flat, round);
     let (ways, looks): (&[DVec3], u32) = match extent.normal {
@@ -147,7 +186,7 @@ fn mean_luminance(scene: &CompiledScene, shape: &Primitive, extent: &Extent, pri
             // Points of Hammersley's.
             let across = (f64::from(look) + 0.5) / f64::from(looks);
             let up = (f64::from(look.reverse_bits()) + 0.5) / 4_294_967_296.0 + 0.5 / f64::from(looks);
-            if let Some(aim) = shape.aim(element, from, DVec2::new(across, up.min(0.999))) {
+            if let Some(aim) = shape.aim(&aimable, from, DVec2::new(across, up.min(0.999))) {
                 sum += f64::from(given_off(scene, primitive, &aim, from).luminance());
                 count += 1.0;
             }

@@ -3,13 +3,13 @@
 mod map;
 
 use super::Receiver;
-use crate::background::Background;
-use durer_math::functions::{cos, sin};
+use crate::background::{Background, Look};
+use durer_math::functions::cos_sin_of_turns;
 use durer_math::{DVec2, DVec3, any_orthonormal_pair};
 use map::Map;
 use std::f64::consts::PI;
 
-/// The background as an emitter: how to choose a direction, without what is seen there.
+/// The background as an emitter: how to choose a direction.
 #[derive(Clone, Debug)]
 pub(super) struct Sky {
     kind: Kind,
@@ -51,23 +51,26 @@ impl Sky {
         PI * self.mean
     }
 
-    /// A direction, and its density per solid angle.
-    pub(super) fn sample(&self, background: &Background, receiver: &Receiver, at: DVec2) -> Option<(DVec3, f64)> {
+    /// A look in a direction chosen at random, and the density of that per solid angle.
+    pub(super) fn sample(&self, background: &Background, receiver: &Receiver, at: DVec2) -> Option<(Look, f64)> {
         let direction = match &self.kind {
             Kind::Even => by_cosine(receiver, at),
             Kind::Gradient { slope } if at.x < 0.5 => by_height(*slope, DVec2::new(2.0 * at.x, at.y)),
             Kind::Gradient { .. } => by_cosine(receiver, DVec2::new(2.0 * at.x - 1.0, at.y)),
             Kind::Map(map) => {
                 let Background::Image(environment) = background else { return None };
-                return map.sample(environment, at);
+                let (place, direction, pdf) = map.sample(environment, at)?;
+                return Some((Look { direction, light: environment.seen_at(place), place }, pdf));
             }
         };
-        let pdf = self.pdf(background, receiver, direction);
-        (pdf > 0.0).then_some((direction, pdf))
+        let look = background.look(direction);
+        let pdf = self.pdf(background, receiver, &look);
+        (pdf > 0.0).then_some((look, pdf))
     }
 
-    /// The density with which [`Sky::sample`] finds a direction.
-    pub(super) fn pdf(&self, background: &Background, receiver: &Receiver, direction: DVec3) -> f64 {
+    /// The density with which [`Sky::sample`] finds a look.
+    pub(super) fn pdf(&self, background: &Background, receiver: &Receiver, look: &Look) -> f64 {
+        let Look { direction, place, .. } = *look;
         match &self.kind {
             Kind::Even => pdf_by_cosine(receiver, direction),
             Kind::Gradient { slope } => {
@@ -75,7 +78,7 @@ impl Sky {
                 0.5 * (by_height + pdf_by_cosine(receiver, direction))
             }
             Kind::Map(map) => match background {
-                Background::Image(environment) => map.pdf(environment, direction),
+                Background::Image(environment) => map.pdf(environment, place, direction),
                 Background::Color(_) | Background::Gradient { .. } => 0.0,
             },
         }
@@ -89,9 +92,9 @@ fn by_cosine(receiver: &Receiver, at: DVec2) -> DVec3 {
         true if at.x < 0.5 => (2.0 * at.x, 1.0),
         true => (2.0 * at.x - 1.0, -1.0),
     };
-    let (radius, angle) = (x.sqrt(), 2.0 * PI * at.y);
+    let (radius, (cos, sin)) = (x.sqrt(), cos_sin_of_turns(at.y));
     let (u, v) = any_orthonormal_pair(receiver.normal);
-    let across = u * (radius * cos(angle)) + v * (radius * sin(angle));
+    let across = u * (radius * cos) + v * (radius * sin);
     (across + receiver.normal * (side * (1.0 - x).sqrt())).normalize()
 }
 
@@ -105,8 +108,8 @@ fn pdf_by_cosine(receiver: &Receiver, direction: DVec3) -> f64 {
 fn by_height(slope: f64, at: DVec2) -> DVec3 {
     let c = 2.0 - slope - 4.0 * at.x;
     let y = (-c / (1.0 + (1.0 - slope * c).max(0.0).sqrt())).clamp(-1.0, 1.0);
-    let (across, angle) = ((1.0 - y * y).sqrt(), 2.0 * PI * at.y);
-    DVec3::new(across * cos(angle), y, across * sin(angle))
+    let (across, (cos, sin)) = ((1.0 - y * y).sqrt(), cos_sin_of_turns(at.y));
+    DVec3::new(across * cos, y, across * sin)
 }
 
 #[cfg(test)]

@@ -112,12 +112,11 @@ impl<O: Observer> Path<'_, O> {
         let met = meet(scene, &self.state.ray, known, self.observer);
         self.along(met.length);
         let Some(hit) = met.hit else {
-            let direction = met.ray.direction;
-            let seen = scene.background.seen(direction);
-            if !seen.is_black() {
-                let density = |receiver: &Receiver| scene.emitters.pdf_of_background(scene, receiver, direction);
+            let seen = scene.background.look(met.ray.direction);
+            if !seen.light.is_black() {
+                let density = |receiver: &Receiver| scene.emitters.pdf_of_background(scene, receiver, &seen);
                 let part = self.part_of_found(density);
-                self.add(Source::Background, seen * part);
+                self.add(Source::Background, seen.light * part);
             }
             return false;
         };

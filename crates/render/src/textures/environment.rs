@@ -1,9 +1,8 @@
 //! A picture of all directions.
 
 use super::texels::{Tables, Texels};
-use super::wrap::wrap_pixel;
 use durer_math::{DVec3, Rgb, functions};
-use durer_scene::{Channels, Encoding, ImageId, Scene, Wrap};
+use durer_scene::{Channels, Encoding, ImageId, Scene};
 use std::f64::consts::{PI, TAU};
 
 /// An environment map, as [`durer_scene::Environment`] describes it. Between the middles of pixels it is bilinear, around the
@@ -43,12 +42,13 @@ impl Environment {
         [(functions::atan2(z, x) + PI) / TAU, functions::asin(direction.y.clamp(-1.0, 1.0)) / PI + 0.5]
     }
 
-    /// The direction of unit length that is so far from the left, in parts of the width, and has this y.
-    pub(crate) fn direction(&self, from_left: f64, y: f64) -> DVec3 {
+    /// The direction of unit length that is at a place of the picture, and the length of its part across the vertical.
+    pub(crate) fn direction(&self, [from_left, from_below]: [f64; 2]) -> (DVec3, f64) {
         let (sin, cos) = self.rotation;
-        let (angle, across) = (from_left * TAU - PI, (1.0 - y * y).max(0.0).sqrt());
-        let (x, z) = (across * functions::cos(angle), across * functions::sin(angle));
-        DVec3::new(x * cos + z * sin, y, z * cos - x * sin)
+        let (across, y) = functions::cos_sin_of_turns(0.5 * (from_below - 0.5));
+        let (x, z) = functions::cos_sin_of_turns(from_left - 0.5);
+        let (x, z) = (across * x, across * z);
+        (DVec3::new(x * cos + z * sin, y, z * cos - x * sin), across)
     }
 
     /// The y of directions at the lower end of a row of pixels, of so many rows.
@@ -58,17 +58,21 @@ impl Environment {
 
     /// What is seen in a direction of unit length.
     pub(crate) fn seen(&self, direction: DVec3) -> Rgb {
+        self.seen_at(self.place(direction))
+    }
+
+    /// What is seen at a place of the picture.
+    pub(crate) fn seen_at(&self, [from_left, from_below]: [f64; 2]) -> Rgb {
         let [width, height] = self.texels.size();
-        let [across, up] = self.place(direction);
-        let (s, t) = (across * f64::from(width) - 0.5, up * f64::from(height) - 0.5);
+        let (s, t) = (from_left * f64::from(width) - 0.5, from_below * f64::from(height) - 0.5);
+        // Half a pixel beyond the ends, at most.
         let (left, below) = (s.floor(), t.floor());
         let (across, up) = ((s - left) as f32, (t - below) as f32);
-        let pixel = |column: f64, row: f64| {
-            let column = wrap_pixel(Wrap::Repeat, column as i64, width);
-            self.texels.get(column, wrap_pixel(Wrap::Clamp, row as i64, height))
-        };
-        let row = |row: f64| pixel(left, row).lerp(pixel(left + 1.0, row), across);
-        row(below).lerp(row(below + 1.0), up) * self.strength
+        let left = if left < 0.0 { width - 1 } else { (left as u32).min(width - 1) };
+        let right = if left + 1 == width { 0 } else { left + 1 };
+        let [below, above] = [below, below + 1.0].map(|row| (row as u32).min(height - 1));
+        let row = |row: u32| self.texels.get(left, row).lerp(self.texels.get(right, row), across);
+        row(below).lerp(row(above), up) * self.strength
     }
 }
 
