@@ -41,9 +41,9 @@ impl Triangle {
 
     /// True if no point of it is much farther away than another, by the ball around its middle.
     fn is_far(&self, from: DVec3) -> bool {
-        // (d + r)² ≤ FAR (d - r)².
-        const { assert!(FAR == 2.0) };
-        const RATIO: f64 = 3.0 + 2.0 * std::f64::consts::SQRT_2;
+        // (d + r)² ≤ FAR (d - r)², where d ≥ RATIO r.
+        const RATIO: f64 = 11.92;
+        const { assert!((RATIO + 1.0) * (RATIO + 1.0) <= FAR * (RATIO - 1.0) * (RATIO - 1.0)) };
         let middle = self.middle();
         let squared = |corner: DVec3| (corner - middle).length_squared();
         let [a, b, c] = self.corners.map(squared);

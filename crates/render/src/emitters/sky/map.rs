@@ -18,21 +18,23 @@ const MOST_ROWS: u32 = 2048;
 /// Chances of cells.
 #[derive(Clone, Debug)]
 pub(super) struct Map {
-    /// Of rows, from straight down to straight up.
-    rows: Steps,
-    /// Of the cells of each row.
-    cells: Vec<Steps>,
+    /// One distribution: of rows, from straight down to straight up.
+    rows: Distributions,
+    /// For each row that of its cells.
+    cells: Distributions,
     /// The mean luminance of all directions.
     mean: f64,
 }
 
-/// A distribution of whole numbers from 0, in parts of [`ALL`]: what is above 0 has a part at least.
+/// Distributions of whole numbers from 0, in parts of [`ALL`]: what is above 0 has a part at least. All have as many numbers.
 #[derive(Clone, Debug)]
-struct Steps {
-    /// The parts of each number and those before it; whole blocks, and [`ALL`] at the end.
-    ends: Box<[u16]>,
-    /// The last of each block.
-    blocks: Box<[u16]>,
+struct Distributions {
+    /// The parts of each number and those before it, in whole blocks, with [`ALL`] at the end; one distribution after the other.
+    ends: Vec<u16>,
+    /// The last of each block, likewise.
+    blocks: Vec<u16>,
+    /// How many blocks one distribution has.
+    block_count: usize,
 }
 
 /// All parts of a distribution.
@@ -40,50 +42,67 @@ const ALL: u16 = u16::MAX;
 /// So many numbers are a cache line.
 const BLOCK: usize = 32;
 
-impl Steps {
-    /// One that is proportional to these weights, none of which is negative, and no more than [`MOST_COLUMNS`].
-    fn new(weights: &[f64]) -> Steps {
+impl Distributions {
+    /// Those that are proportional to these weights, none of which is negative; of each no more than [`MOST_COLUMNS`].
+    fn new<'a>(weights: impl Iterator<Item = &'a [f64]>) -> Distributions {
+        let mut all = Distributions { ends: Vec::new(), blocks: Vec::new(), block_count: 0 };
+        for weights in weights {
+            let start = all.ends.len();
+            all.add(weights);
+            all.block_count = (all.ends.len() - start) / BLOCK;
+        }
+        let last = |block: &[u16]| block.last().copied();
+        all.blocks = all.ends.chunks(BLOCK).filter_map(last).collect();
+        all
+    }
+
+    fn add(&mut self, weights: &[f64]) {
+        let start = self.ends.len();
         let all: f64 = weights.iter().sum();
         let something = weights.iter().filter(|&&weight| weight > 0.0).count();
         // A part for each that is something; the rest by weight.
         let rest = f64::from(ALL) - something as f64;
         let (mut parts, mut sum) = (0.0, 0.0);
-        let mut ends: Vec<u16> = Vec::with_capacity(weights.len().next_multiple_of(BLOCK));
         for &weight in weights {
             parts += f64::from(u8::from(weight > 0.0));
             sum += weight;
-            ends.push((parts + (sum / all * rest).floor().clamp(0.0, rest)) as u16);
+            self.ends.push((parts + (sum / all * rest).floor().clamp(0.0, rest)) as u16);
         }
         if let Some(last) = weights.iter().rposition(|&weight| weight > 0.0) {
-            ends[last..].fill(ALL);
+            self.ends[start + last..].fill(ALL);
         }
-        ends.resize(weights.len().next_multiple_of(BLOCK), ALL);
-        let blocks = ends.chunks(BLOCK).filter_map(|block| block.last().copied()).collect();
-        Steps { ends: ends.into(), blocks }
+        self.ends.resize(start + weights.len().next_multiple_of(BLOCK), ALL);
     }
 
-    /// The number that one from 0 to less than 1 chooses, what is left of that one, from 0 to 1, and the chance.
+    /// The number that one from 0 to less than 1 chooses in a distribution, what is left of that one, from 0 to 1, and the
+    /// chance.
     #[inline]
-    fn choose(&self, at: f64) -> (usize, f64, f64) {
+    fn choose(&self, which: usize, at: f64) -> (usize, f64, f64) {
         let at = at * f64::from(ALL);
         let whole = (at as u16).min(ALL - 1);
         // All are looked at, which is faster than to stop at the right one.
         let below = |ends: &[u16]| usize::from(ends.iter().map(|&end| u16::from(end <= whole)).sum::<u16>());
-        let block = below(&self.blocks) * BLOCK;
-        let chosen = block + below(&self.ends[block..block + BLOCK]);
-        let from = self.from(chosen);
-        let parts = f64::from(self.ends[chosen] - from);
-        (chosen, ((at - f64::from(from)) / parts).clamp(0.0, 1.0), parts / f64::from(ALL))
+        let first = which * self.block_count;
+        let block = below(&self.blocks[first..first + self.block_count]);
+        let ends = &self.ends[(first + block) * BLOCK..][..BLOCK];
+        let number = block * BLOCK + below(ends);
+        let from = self.from(which, number);
+        let parts = f64::from(self.end(which, number) - from);
+        (number, ((at - f64::from(from)) / parts).clamp(0.0, 1.0), parts / f64::from(ALL))
     }
 
-    /// The chance of a number.
+    /// The chance of a number in a distribution.
     #[inline]
-    fn chance(&self, number: usize) -> f64 {
-        f64::from(self.ends[number] - self.from(number)) / f64::from(ALL)
+    fn chance(&self, which: usize, number: usize) -> f64 {
+        f64::from(self.end(which, number) - self.from(which, number)) / f64::from(ALL)
     }
 
-    fn from(&self, number: usize) -> u16 {
-        if number == 0 { 0 } else { self.ends[number - 1] }
+    fn end(&self, which: usize, number: usize) -> u16 {
+        self.ends[which * self.block_count * BLOCK + number]
+    }
+
+    fn from(&self, which: usize, number: usize) -> u16 {
+        if number == 0 { 0 } else { self.end(which, number - 1) }
     }
 }
 
@@ -99,14 +118,18 @@ impl Map {
                 let band = band(at, height);
                 add_row(environment, at, &mut cells, across, band);
             }
-            (cells.iter().sum(), Steps::new(&cells))
+            cells
         };
-        let rows: Vec<(f64, Steps)> = (0..rows as u32).into_par_iter().map(row).collect();
-        let (light, cells): (Vec<f64>, Vec<Steps>) = rows.into_iter().unzip();
+        let cells: Vec<Vec<f64>> = (0..rows as u32).into_par_iter().map(row).collect();
+        let light: Vec<f64> = cells.iter().map(|row| row.iter().sum()).collect();
         let sum: f64 = light.iter().sum();
         // Each row weighs its cells by heights of bands, which are 2 in all.
         let mean = sum / (2.0 * f64::from(width));
-        (sum > 0.0 && sum.is_finite()).then(|| Map { rows: Steps::new(&light), cells, mean })
+        (sum > 0.0 && sum.is_finite()).then(|| Map {
+            rows: Distributions::new([light.as_slice()].into_iter()),
+            cells: Distributions::new(cells.iter().map(Vec::as_slice)),
+            mean,
+        })
     }
 
     pub(super) fn mean(&self) -> f64 {
@@ -115,8 +138,8 @@ impl Map {
 
     /// A place of the picture, the direction there, and its density per solid angle.
     pub(super) fn sample(&self, environment: &Environment, at: DVec2) -> Option<([f64; 2], DVec3, f64)> {
-        let (row, from_below, row_chance) = self.rows.choose(at.y);
-        let (column, from_left, cell_chance) = self.cells[row].choose(at.x);
+        let (row, from_below, row_chance) = self.rows.choose(0, at.y);
+        let (column, from_left, cell_chance) = self.cells.choose(row, at.x);
         let [across, up] = sides(environment, column, row);
         let within = |[low, high]: [f64; 2], part: f64| low + (high - low) * part;
         let place = [within(across, from_left), within(up, from_below)];
@@ -134,7 +157,7 @@ impl Map {
         };
         let (column, row) = (index(u, width, MOST_COLUMNS), index(v, height, MOST_ROWS));
         let [across, up] = sides(environment, column, row);
-        let chance = self.rows.chance(row) * self.cells[row].chance(column);
+        let chance = self.rows.chance(0, row) * self.cells.chance(row, column);
         chance / solid_angle(across, up, DVec2::new(direction.x, direction.z).length())
     }
 }
