@@ -466,6 +466,16 @@ impl Primitive {
         normal.try_normalize()
     }
 
+    /// From a point on a triangle of a mesh to the rounder surface that its normals tell of, on the side that `normal` points to;
+    /// `None` if there is none, or it lies on the other side.
+    pub fn lift(&self, point: DVec3, part: u32, normal: DVec3) -> Option<DVec3> {
+        let Kind::Mesh(mesh) = &self.kind else { return None };
+        let point = self.in_shape(point);
+        let own = self.shape_from_world.transpose() * mesh.shading_normal(point, part)?;
+        let lift = mesh.lift(point, part, own.dot(normal) < 0.0)?;
+        Some(self.world_from_shape * lift).filter(|lift| lift.is_finite())
+    }
+
     /// The weights of a triangle's three vertices at a point of it, if it is a mesh, or a solid that has the triangle from
     /// one.
     pub fn vertex_weights(&self, point: DVec3, part: u32) -> Option<[f64; 3]> {

@@ -9,10 +9,10 @@ use durer_imaging::Image;
 use durer_math::{DVec2, Rgb};
 use std::cmp::Ordering::Equal;
 
-pub use merge::MergeError;
+pub use merge::{FilmOutline, MergeError, Merging};
 pub use region::Region;
 pub(crate) use region::TILE;
-pub use sums::{Part, SampleRange, Sums};
+pub use sums::{Calm, Part, SampleRange, Sums};
 pub(crate) use sums::{PixelSums, SampledTile};
 
 /// The colours of a region's pixels, in linear light, and an account of how they came about.
@@ -228,6 +228,11 @@ impl Film {
     /// The sums of its samples, if it was made by an integrator that takes samples.
     pub fn sums(&self) -> Option<&Sums> {
         self.sums.as_ref()
+    }
+
+    /// The same, to be written.
+    pub(crate) fn sums_mut(&mut self) -> Option<&mut Sums> {
+        self.sums.as_mut()
     }
 
     /// How far it has come: its finished pixels, or the samples that it has.

@@ -51,6 +51,19 @@ impl Fog {
         })
     }
 
+    /// The fog on a segment of this length which goes straight on from one that had come so far: where fog is linear, it is no
+    /// longer that of its beginning.
+    #[inline]
+    pub(crate) fn veil_behind(&self, way: f64, length: f64) -> Veil {
+        match self.kind {
+            Kind::Exponential { .. } => self.veil(length),
+            Kind::Linear { end, rate } => {
+                let before = linear(end, rate, way);
+                self.veil_of(if before > 0.0 { linear(end, rate, way + length) / before } else { 0.0 })
+            }
+        }
+    }
+
     /// Its color.
     pub(crate) fn color(&self) -> Rgb {
         self.color
@@ -99,5 +112,21 @@ mod tests {
         let fog = Fog::compile(&scene::Fog::Linear { color: Rgb::WHITE, start: 10.0, end: 30.0 });
         let visible = [0.0, 10.0, 15.0, 20.0, 30.0, f64::INFINITY].map(|d| fog.veil(d).visible);
         assert_eq!(visible, [1.0, 1.0, 0.75, 0.5, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn fog_in_parts_is_the_fog_of_the_whole() {
+        let linear = scene::Fog::Linear { color: Rgb::WHITE, start: 10.0, end: 30.0 };
+        let exponential = scene::Fog::Exponential { color: Rgb::WHITE, distance: 20.0 };
+        for fog in [linear, exponential].iter().map(Fog::compile) {
+            for parts in [[5.0, 15.0, 7.0], [12.0, 3.0, 1.0], [3.0, 4.0, 2.0], [25.0, 10.0, 10.0]] {
+                let (mut way, mut visible) = (0.0, 1.0);
+                for part in parts {
+                    visible *= fog.veil_behind(way, part).visible;
+                    way += part;
+                }
+                assert!((visible - fog.veil(way).visible).abs() < 1e-6, "{parts:?}: {visible}");
+            }
+        }
     }
 }

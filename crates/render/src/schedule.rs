@@ -373,6 +373,11 @@ pub(crate) fn region_of(scene: &CompiledScene, options: &RenderOptions) -> Resul
     }
 }
 
+/// Works on each item, on all threads of the pool.
+pub(crate) fn each_in_parallel<T: Send>(items: &mut [T], work: impl Fn(&mut T) + Sync + Send) {
+    items.par_iter_mut().for_each(work);
+}
+
 /// Makes something of each tile, on all threads of the pool, and puts it all into `gathered`, one after the other, until
 /// `progress` stops it.
 pub(crate) fn in_tiles<G: Send, T: Send>(
