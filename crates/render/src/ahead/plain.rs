@@ -206,8 +206,8 @@ fn highlight<S: Simd>(simd: S, view: &View<'_>, sights: &Sights, shininess: f32x
 fn a_byte_each(lanes: u32) -> u64 {
     const EACH: u64 = 0x0101_0101_0101_0101;
     // Copies of the set, of which each byte keeps its own lane's bit; that is carried to the highest place, and down.
-    let own = u64::from(lanes & ALL) * EACH & 0x8040_2010_0804_0201;
-    (own + 0x7f * EACH) >> 7 & EACH
+    let own = (u64::from(lanes & ALL) * EACH) & 0x8040_2010_0804_0201;
+    ((own + 0x7f * EACH) >> 7) & EACH
 }
 
 impl Surfaces {
