@@ -4,7 +4,6 @@ mod light;
 
 use crate::exit::Failure;
 use crate::output;
-use clap::builder::RangedI64ValueParser;
 use clap::{Args, ValueEnum};
 use durer::CheckedScene;
 use durer::imaging::Transfer;
@@ -21,8 +20,9 @@ pub(crate) struct Overrides {
     #[command(flatten)]
     light: Light,
 
-    /// Longest chain of rays or path of light, from 1 (the eye's rays alone) to 100
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100), allow_negative_numbers = true)]
+    /// Longest chain of rays, from 1 (the eye's rays alone) to 100; with `path` the most surfaces that light may meet, up to
+    /// 1000000
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     max_depth: Option<u32>,
 
     /// Rays in a pixel: `adaptive[:THRESHOLD[,DEPTH]]`, `none`, `grid:N` (N × N), `recursive[:THRESHOLD[,DEPTH]]`, or as
@@ -49,11 +49,11 @@ pub(crate) struct Overrides {
 #[command(next_help_heading = "Instead of what the scene says")]
 pub(crate) struct Size {
     /// Width in pixels, at most 65535; without --height the shape of the picture is kept
-    #[arg(long, value_name = "PIXELS", value_parser = length(), allow_negative_numbers = true)]
+    #[arg(long, value_name = "PIXELS", allow_negative_numbers = true)]
     width: Option<u32>,
 
     /// Height in pixels, at most 65535; without --width the shape of the picture is kept
-    #[arg(long, value_name = "PIXELS", value_parser = length(), allow_negative_numbers = true)]
+    #[arg(long, value_name = "PIXELS", allow_negative_numbers = true)]
     height: Option<u32>,
 }
 
@@ -85,6 +85,7 @@ impl Overrides {
         let mut scene = scene.into_scene();
         self.change(&mut scene);
         let checked = scene.check().map_err(|problems| Failure::usage(self.describe(&problems)))?;
+        self.tell_meaningless(&checked.scene().render.integrator);
         if self.light.chooses_integrator() {
             // Those that the scene itself gave rise to have been told when it was loaded.
             for remark in checked.remarks().iter().filter(|remark| !known.contains(remark)) {
@@ -123,6 +124,21 @@ impl Overrides {
         };
     }
 
+    /// Warns of options that change nothing.
+    fn tell_meaningless(&self, integrator: &Integrator) {
+        let mut options = self.light.meaningless_to(integrator);
+        let of_antialias = [("--antialias", self.antialias.is_some())];
+        if integrator.takes_samples() {
+            options.extend(of_antialias.iter().filter(|(_, is_given)| *is_given).map(|(option, _)| option));
+        }
+        if self.max_depth.is_some() && !matches!(integrator, Integrator::Path { .. } | Integrator::Whitted) {
+            options.push("--max-depth");
+        }
+        for option in options {
+            output::warning(&format!("{option} means nothing to `{}`, and is not followed", integrator.word()));
+        }
+    }
+
     fn describe(&self, problems: &[Problem]) -> String {
         let lines: Vec<String> = problems
             .iter()
@@ -153,6 +169,7 @@ impl Overrides {
             },
             ("render", "max_depth") => "--max-depth",
             ("render", "filter") => "--filter",
+            ("render", "integrator") if field(3) == "max_depth" && self.max_depth.is_some() => "--max-depth",
             ("render", "integrator") => "--integrator",
             ("render", "samples") => "--samples",
             ("render", "noise") => "--noise",
@@ -177,11 +194,6 @@ impl Size {
             (None, None) => (picture.width, picture.height),
         }
     }
-}
-
-/// What scenes take as a width or height.
-fn length() -> RangedI64ValueParser<u32> {
-    RangedI64ValueParser::new().range(1..=65_535)
 }
 
 const ANTIALIAS: &str = "`adaptive[:THRESHOLD[,DEPTH]]`, `none`, `grid:N`, `recursive[:THRESHOLD[,DEPTH]]`, \

@@ -42,6 +42,32 @@ pub(crate) fn format_of(path: &Path) -> Result<FileFormat, Failure> {
     FileFormat::from_path(path).map_err(|error| Failure::usage(format!("{}: {error}", path.display())))
 }
 
+/// As [`format_of`], where a film could be written, too: messages name that.
+pub(crate) fn format_or_film(path: &Path) -> Result<Option<FileFormat>, Failure> {
+    if is_film(path) {
+        return Ok(None);
+    }
+    let with_film = |failure| match failure {
+        Failure::Message(exit, message) => {
+            let known = "png, jpg, exr, hdr and pfm";
+            Failure::Message(exit, message.replace(known, &format!("{known}, and film for `durer merge`")))
+        }
+        other @ (Failure::Told(_) | Failure::Arguments(_)) => other,
+    };
+    format_of(path).map(Some).map_err(with_film)
+}
+
+/// Fails if a file that is to be read as a picture holds a film, and says how to make a picture of it.
+pub(crate) fn is_picture(path: &Path) -> Result<(), Failure> {
+    if !crate::commands::info::film::is_one(path) {
+        return Ok(());
+    }
+    let path = path.display();
+    Err(Failure::file(format!(
+        "{path} holds sums of samples, not a picture: make one of it with `durer merge {path} -o picture.exr`"
+    )))
+}
+
 /// True if a file is to hold a film, with all that it takes to add samples to it: `part.film`.
 pub(crate) fn is_film(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("film"))

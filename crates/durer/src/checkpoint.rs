@@ -5,7 +5,7 @@
 mod format;
 
 use crate::SceneHash;
-use durer_render::Film;
+use durer_render::{Film, FilmOutline};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -19,8 +19,21 @@ pub struct Checkpoint {
     pub origin: Origin,
     /// The scene that it is a picture of.
     pub scene: SceneHash,
+    /// The seconds that it has taken so far; 0 if it is finished.
+    pub seconds: f64,
     /// What is finished.
     pub film: Film,
+}
+
+/// What a checkpoint says of its film before the film itself, which may be large.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CheckpointOutline {
+    /// How it was begun.
+    pub origin: Origin,
+    /// The scene that it is a picture of.
+    pub scene: SceneHash,
+    /// What must be known before other films are put to it.
+    pub film: FilmOutline,
 }
 
 /// How a render was begun, in the words of the program that began it. The library keeps them and reads nothing into them.
@@ -57,13 +70,37 @@ const MOST_BYTES: u64 = 8 << 30;
 ///
 /// It cannot be read, or is none that this version of durer can go on with.
 pub fn read_checkpoint(path: &Path) -> Result<Checkpoint, CheckpointError> {
+    let bytes = read_first(path, MOST_BYTES)?;
+    Checkpoint::decode(&bytes)
+}
+
+/// The first bytes of a file, in which the outline is to be found; if names are very long, in so many.
+const FIRST_BYTES: [u64; 2] = [1 << 20, 1 << 28];
+
+/// Reads the first bytes of a checkpoint. Whether the others are right only [`read_checkpoint`] finds out.
+///
+/// # Errors
+///
+/// They cannot be read, or are not those of a checkpoint that this version of durer can go on with.
+pub fn read_checkpoint_outline(path: &Path) -> Result<CheckpointOutline, CheckpointError> {
+    let first = |most: u64| {
+        let bytes = read_first(path, most)?;
+        CheckpointOutline::decode(&bytes)
+    };
+    match first(FIRST_BYTES[0]) {
+        Err(CheckpointError::Damaged) => first(FIRST_BYTES[1]),
+        outline => outline,
+    }
+}
+
+fn read_first(path: &Path, most: u64) -> Result<Vec<u8>, CheckpointError> {
     let metadata = std::fs::metadata(path).map_err(CheckpointError::Io)?;
     if !metadata.is_file() {
         return Err(CheckpointError::AnotherKind);
     }
     let mut bytes = Vec::new();
-    File::open(path).and_then(|file| file.take(MOST_BYTES).read_to_end(&mut bytes)).map_err(CheckpointError::Io)?;
-    Checkpoint::decode(&bytes)
+    File::open(path).and_then(|file| file.take(most).read_to_end(&mut bytes)).map_err(CheckpointError::Io)?;
+    Ok(bytes)
 }
 
 impl std::fmt::Display for CheckpointError {

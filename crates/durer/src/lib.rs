@@ -23,7 +23,9 @@ mod scene_hash;
 mod whole;
 
 pub use admit::admit;
-pub use checkpoint::{Checkpoint, CheckpointError, Origin, encode_checkpoint, read_checkpoint};
+pub use checkpoint::{
+    Checkpoint, CheckpointError, CheckpointOutline, Origin, encode_checkpoint, read_checkpoint, read_checkpoint_outline,
+};
 pub use durer_formats::{
     AssetError, Assets, Diagnostic, Diagnostics, Exceeded, FolderAssets, Limit, Limits, LoadOptions, Loaded,
     MemoryAssets, NoAssets, Related, Severity, Sources, json_schema, load_bytes, load_file, load_str,
@@ -32,15 +34,15 @@ pub use durer_formats::{
 pub use durer_imaging as imaging;
 pub use durer_math as math;
 pub use durer_render::{
-    BadSample, Bounds, CompiledScene, Contribution, Element, Film, FilmParts, GeometryMemory, HeatMap, HitExplanation,
-    HoleExplanation, LightExplanation, MergeError, NotTraced, Part, PixelExplanation, Progress, RayCounts,
-    RayExplanation, RayKind, Region, RenderError, RenderOptions, SampleExplanation, SampleRange, Scattering, SeenFirst,
-    SimdLevel, Source, Sums, Weighing, compile, compile_for, coverage, explain, heatmap, memory_needed, render,
-    render_on, seen_first, with_threads,
+    BadSample, Bounds, Calm, CompiledScene, Contribution, Element, Film, FilmOutline, FilmParts, GeometryMemory,
+    HeatMap, HitExplanation, HoleExplanation, LightExplanation, MergeError, Merging, NotTraced, Part, PixelExplanation,
+    Progress, RayCounts, RayExplanation, RayKind, Region, RenderError, RenderOptions, SampleExplanation, SampleRange,
+    Scattering, SeenFirst, SimdLevel, Source, Sums, Weighing, compile, compile_for, coverage, explain, heatmap,
+    memory_needed, render, render_on, seen_first, with_threads,
 };
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};
 pub use files::{PictureFile, ReadError, WriteError, picture_facts, picture_layers, read_layers, read_picture};
 pub use film_layers::{FilmLayer, film_layers};
-pub use scene_hash::SceneHash;
+pub use scene_hash::{SceneHash, SceneItem};
 pub use whole::{temporary_beside, write_whole};

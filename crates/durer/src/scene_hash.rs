@@ -2,38 +2,115 @@
 
 use durer_formats::{Sources, to_yaml};
 use durer_math::Fingerprint;
-use durer_scene::Scene;
+use durer_scene::{Picture, RenderSettings, Scene};
 use std::collections::BTreeMap;
+use std::fmt::Debug;
 
 /// The fingerprint of a scene, with everything that may change a pixel, in parts: of the scene's text as
-/// [`to_yaml`](crate::to_yaml) writes it, under an empty name, and of each file that it names.
+/// [`to_yaml`](crate::to_yaml) writes it without `picture` and `render`, under an empty name; of each of these settings; and of
+/// each file that it names.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneHash {
-    /// Name and fingerprint of each part, sorted by name.
+    /// Name and fingerprint of each part, sorted by name. Those of settings begin with a byte that no name of a file has.
     pub(crate) parts: Vec<(String, u128)>,
+    /// The word for what is computed.
+    pub(crate) integrator: String,
+    /// Width and height of the whole picture.
+    pub(crate) size: (u32, u32),
 }
+
+/// Something that a scene is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SceneItem<'a> {
+    /// What is in it.
+    Scene,
+    /// A setting of `picture` or `render`, by its name.
+    Setting(&'a str),
+    /// A file that it names.
+    File(&'a str),
+}
+
+/// What names of settings begin with.
+const SETTING: char = '\0';
 
 impl SceneHash {
     /// That of a scene with the settings that it is rendered with, and of the files that it was loaded from.
     pub fn of(scene: &Scene, sources: &Sources) -> SceneHash {
-        let own = (String::new(), Fingerprint::of(to_yaml(scene).as_bytes()).0);
+        let rest = Scene { picture: Picture::default(), render: RenderSettings::default(), ..scene.clone() };
+        let own = (String::new(), Fingerprint::of(to_yaml(&rest).as_bytes()).0);
+        let settings = settings(&scene.picture, &scene.render)
+            .map(|(name, value)| (format!("{SETTING}{name}"), Fingerprint::of(value.as_bytes()).0));
         let files = sources.files().map(|(name, fingerprint)| (name.to_owned(), fingerprint.0));
-        SceneHash { parts: std::iter::once(own).chain(files).collect() }
+        let mut parts: Vec<(String, u128)> = std::iter::once(own).chain(settings).chain(files).collect();
+        parts.sort();
+        let Picture { width, height, .. } = scene.picture;
+        SceneHash { parts, integrator: scene.render.integrator.word().to_owned(), size: (width, height) }
     }
 
-    /// What is not the same in `other`: names of files, or an empty name for the scene itself.
-    pub fn differences<'a>(&'a self, other: &'a SceneHash) -> Vec<&'a str> {
+    /// The word for what is computed of the scene.
+    pub fn integrator(&self) -> &str {
+        &self.integrator
+    }
+
+    /// Width and height of the whole picture.
+    pub fn size(&self) -> (u32, u32) {
+        self.size
+    }
+
+    /// All parts as one.
+    pub fn fingerprint(&self) -> Fingerprint {
+        let bytes = |(name, hash): &(String, u128)| [name.as_bytes(), &[0xff], &hash.to_le_bytes()].concat();
+        Fingerprint::of(&self.parts.iter().flat_map(bytes).collect::<Vec<u8>>())
+    }
+
+    /// What is not the same in `other`.
+    pub fn differences<'a>(&'a self, other: &'a SceneHash) -> Vec<SceneItem<'a>> {
         let missing_in = |a: &'a SceneHash, b: &SceneHash| {
             let of_b: BTreeMap<&str, u128> = b.parts.iter().map(|(name, hash)| (name.as_str(), *hash)).collect();
             let names = a.parts.iter().filter(|(name, hash)| of_b.get(name.as_str()) != Some(hash));
-            names.map(|(name, _)| name.as_str()).collect::<Vec<&str>>()
+            names.map(|(name, _)| item_of(name)).collect::<Vec<SceneItem<'a>>>()
         };
-        let mut names = missing_in(self, other);
-        names.extend(missing_in(other, self));
-        names.sort_unstable();
-        names.dedup();
-        names
+        let mut items = missing_in(self, other);
+        items.extend(missing_in(other, self));
+        items.sort_unstable();
+        items.dedup();
+        items
     }
+}
+
+fn item_of(name: &str) -> SceneItem<'_> {
+    match name.strip_prefix(SETTING) {
+        Some(setting) => SceneItem::Setting(setting),
+        None if name.is_empty() => SceneItem::Scene,
+        None => SceneItem::File(name),
+    }
+}
+
+/// Each setting by its name, written so that no two values are written alike.
+fn settings(picture: &Picture, render: &RenderSettings) -> impl Iterator<Item = (&'static str, String)> {
+    let Picture { width, height, transfer, exposure, tone_mapping } = picture;
+    let RenderSettings { integrator, samples, noise, time, seed, light_samples, max_depth, min_weight, .. } = render;
+    let RenderSettings { antialias, filter, trees, .. } = render;
+    [
+        ("width", width as &dyn Debug),
+        ("height", height),
+        ("transfer", transfer),
+        ("exposure", exposure),
+        ("tone_mapping", tone_mapping),
+        ("integrator", integrator),
+        ("samples", samples),
+        ("noise", noise),
+        ("time", time),
+        ("seed", seed),
+        ("light_samples", light_samples),
+        ("max_depth", max_depth),
+        ("min_weight", min_weight),
+        ("antialias", antialias),
+        ("filter", filter),
+        ("trees", trees),
+    ]
+    .map(|(name, value)| (name, format!("{value:?}")))
+    .into_iter()
 }
 
 #[cfg(test)]
@@ -52,8 +129,24 @@ mod tests {
     fn it_tells_what_has_changed() {
         let ball = "objects: [sphere: {radius: 2, material: {color: {image: {file: a.pfm}}}}]";
         assert_eq!(hash(ball, 1), hash(&format!("# A ball.\n{ball}"), 1));
-        assert_eq!(hash(ball, 1).differences(&hash(ball, 2)), ["a.pfm"]);
-        assert_eq!(hash(ball, 1).differences(&hash(&ball.replace("radius: 2", "radius: 3"), 1)), [""]);
-        assert_eq!(hash(ball, 1).differences(&hash("objects: [sphere: {}]", 1)), ["", "a.pfm"]);
+        assert_eq!(hash(ball, 1).differences(&hash(ball, 2)), [SceneItem::File("a.pfm")]);
+        assert_eq!(hash(ball, 1).differences(&hash(&ball.replace("radius: 2", "radius: 3"), 1)), [SceneItem::Scene]);
+        assert_eq!(
+            hash(ball, 1).differences(&hash("objects: [sphere: {}]", 1)),
+            [SceneItem::Scene, SceneItem::File("a.pfm")]
+        );
+    }
+
+    #[test]
+    fn it_tells_which_settings_have_changed() {
+        let of = |text: &str| hash(&format!("{text}\nobjects: [sphere]"), 1);
+        let plain = of("picture: {width: 64, height: 48}");
+        let other = of("picture: {width: 64, height: 32, exposure: 1}\nrender: {integrator: path, seed: 3}");
+        let settings = ["exposure", "height", "integrator", "seed"].map(SceneItem::Setting);
+        assert_eq!(plain.differences(&other), settings);
+        assert_eq!((other.integrator(), other.size()), ("path", (64, 32)));
+        assert_ne!(plain.fingerprint(), other.fingerprint());
+        // One whose name looks like a setting's would have to begin with a byte that no name can have.
+        assert_eq!(item_of("seed"), SceneItem::File("seed"));
     }
 }

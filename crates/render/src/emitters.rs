@@ -154,7 +154,13 @@ impl Emitters {
     }
 
     fn sample_sky(&self, scene: &CompiledScene, receiver: &Receiver, at: DVec2) -> Option<LightSample> {
-        let (Look { direction, light, .. }, pdf) = self.sky.as_ref()?.sample(&scene.background, receiver, at)?;
+        let (look, pdf) = self.sky.as_ref()?.sample(&scene.background, receiver, at)?;
+        let direction = look.direction;
+        if !receiver.passes && direction.dot(receiver.normal) <= 0.0 {
+            // There is no need to wait for a pixel from memory.
+            return None;
+        }
+        let light = scene.background.light(&look);
         Some(LightSample { direction, distance: f64::INFINITY, light, pdf, is_point: false, lamp: None })
     }
 

@@ -1,7 +1,10 @@
 //! Fog, compiled: what is left of light after a length of it.
 
+use crate::lanes;
+use durer_geometry::LANES;
 use durer_math::{Rgb, functions::exp};
 use durer_scene as scene;
+use fearless_simd::{Level, dispatch, f64x8, prelude::*};
 
 /// Fog, compiled.
 #[derive(Clone, Copy, Debug)]
@@ -72,18 +75,13 @@ impl Fog {
         Veil { visible, color: self.color }
     }
 
-    /// What it leaves on each of some segments. Not inlined: where their number is known the compiler makes no loop of it,
-    /// and only in a loop does several at once.
-    #[inline(never)]
-    pub(crate) fn visible_each(&self, lengths: &[f64], visible: &mut [f32]) {
-        let each = lengths.iter().zip(visible);
+    /// What it leaves on each of eight segments: the same as for one alone.
+    pub(crate) fn visible_each(&self, simd: Level, lengths: &[f64; LANES]) -> [f32; LANES] {
         match self.kind {
-            Kind::Exponential { rate } => {
-                each.for_each(|(&length, visible)| *visible = exponential(rate, length));
-            }
-            Kind::Linear { end, rate } => {
-                each.for_each(|(&length, visible)| *visible = linear(end, rate, length));
-            }
+            Kind::Exponential { rate } => dispatch!(simd, simd => {
+                lanes::exp(simd, lanes::single(f64x8::simd_from(simd, *lengths) * rate)).into()
+            }),
+            Kind::Linear { end, rate } => lengths.map(|length| linear(end, rate, length)),
         }
     }
 }

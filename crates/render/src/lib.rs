@@ -20,6 +20,7 @@ mod frame;
 mod heatmap;
 mod holes;
 mod integrators;
+mod lanes;
 mod lights;
 mod materials;
 mod media;
@@ -43,7 +44,7 @@ pub use explain::{
     Contribution, Element, HitExplanation, HoleExplanation, LightExplanation, PixelExplanation, RayExplanation,
     SampleExplanation, explain,
 };
-pub use film::{BadSample, Film, FilmParts, MergeError, Part, Region, SampleRange, Sums};
+pub use film::{BadSample, Calm, Film, FilmOutline, FilmParts, MergeError, Merging, Part, Region, SampleRange, Sums};
 pub use heatmap::{HeatMap, heatmap};
 pub use memory::memory_needed;
 pub use observer::{NotTraced, RayCounts, RayKind, Scattering, Source, Weighing};

@@ -1,5 +1,7 @@
 //! How much memory a picture will take, told before any of it is taken.
 
+mod emitters;
+
 use crate::antialias::adaptive::small::{MOST_THINGS, SMALL_THING};
 use crate::compile::PlacedObject;
 use crate::film::TILE;
@@ -13,8 +15,9 @@ use std::sync::Arc;
 
 /// Of a pixel: its color on the film, what is known of it while it is rendered, and the bytes of the file.
 const PIXEL: u64 = 80;
-/// Of the sums of a pixel's samples, and of what is to be done in a pass: on the film, and the bytes of a checkpoint.
-const SUMS: u64 = 2 * 76 + 16;
+/// Of the sums of a pixel's samples with direct light apart, and of what is to be done in a pass: on the film, and the bytes
+/// of a checkpoint.
+const SUMS: u64 = 2 * 124 + 16;
 /// Of a sample that pixels share: what is seen there, by its place, and its share in the pixel.
 const SHARED_SAMPLE: u64 = 160;
 /// Of a sample that is kept for a filter, twice.
@@ -44,6 +47,7 @@ pub fn memory_needed(scene: &Scene) -> u64 {
         primitives.particles.saturating_mul(PARTICLE),
         samples_together(&scene.render, scene.picture.width, scene.picture.height),
         small_things(scene, primitives.total()),
+        emitters::of_emitters(scene),
     ];
     let mut lists = Lists::default();
     lists.objects(&scene.objects);

@@ -5,6 +5,7 @@
 //! machine: it ends after some pass, and the film then says how many samples that was.
 
 mod again;
+mod around;
 mod direct;
 mod noise;
 
@@ -17,11 +18,14 @@ use crate::holes::Known;
 use crate::integrators::Integrator;
 use crate::sampler::{Purpose, Sampler};
 use crate::schedule::{Progress, in_tiles};
+use around::Around;
 use arrayvec::ArrayVec;
 use direct::Direct;
 use durer_geometry::{LANES, Packet, Ray};
 use durer_math::{DVec2, Rgb};
-use noise::Noise;
+use noise::{Cells, Noise};
+
+pub(crate) use noise::{CELL, PASSES};
 
 /// When it is enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,9 +48,28 @@ pub(crate) fn render_samples<I: Integrator>(
     let filter = FilterSampling::new(scene.settings.filter);
     let direct = film.sums().is_some_and(|sums| !sums.direct.is_empty());
     let sampling = Sampling { scene, integrator, filter, first: goal.samples.start, direct };
+    let noise = goal.noise.map(|target| Noise::new(scene, target));
+    let mut around = match noise {
+        Some(_) => Around::new(film, scene.picture_size()),
+        None => Around::nothing(),
+    };
     let mut clock = Clock { limit: goal.time, begun: None };
     while !film.is_complete() {
-        let Some(pass) = next_pass(scene, film, goal, &mut clock, progress) else {
+        if let Some(noise) = noise {
+            noise.look_at(film);
+            around.follow(film, (noise, goal.samples.count()), &sampling, progress);
+            if progress.stop() {
+                return;
+            }
+        }
+        let in_time = clock.most_samples(progress.elapsed(), film);
+        let pass = match noise {
+            Some(noise) => {
+                next_where_noise_is(film, goal, in_time, |film| Cells::new(noise, film, &around, scene.picture_size()))
+            }
+            None => next_of_all(film, goal, in_time),
+        };
+        let Some(pass) = pass else {
             film.finish_samples();
             progress.finished(film.done(), film.done());
             progress.advanced(film);
@@ -86,37 +109,32 @@ impl Pass {
     }
 }
 
-/// The pass after those that the film has seen; `None` if it is enough.
-fn next_pass(
-    scene: &CompiledScene,
-    film: &Film,
-    goal: Goal,
-    clock: &mut Clock,
-    progress: &dyn Progress,
-) -> Option<Pass> {
-    let (region, sums) = (film.region(), film.sums()?);
-    let from = sums.taken.clone();
+/// The pass after those that the film has seen, of all pixels, if no more samples are to be taken than there is time for;
+/// `None` if it is enough.
+fn next_of_all(film: &Film, goal: Goal, in_time: u64) -> Option<Pass> {
+    let (region, from) = (film.region(), film.sums()?.taken.clone());
     let most = goal.samples.count();
     let least = from.iter().copied().min()?;
     // A pass that was cut short is finished first, so that all pixels have as many samples.
-    let was_cut_short = goal.noise.is_none() && from.iter().any(|&taken| taken != least);
-    let most_in_time = clock.most_samples(progress.elapsed(), least);
-    let (to, expected) = match goal.noise {
-        Some(target) => {
-            if most_in_time <= least {
-                return None;
-            }
-            Noise::new(scene, target).goals(region, sums, most)
-        }
-        None => {
-            let next = after(least).min(most);
-            let next = if was_cut_short { next } else { next.min(most_in_time) };
-            (vec![next; from.len()], region.pixels() * u64::from(most.min(most_in_time).max(next)))
-        }
-    };
-    let pass = Pass { region, from, to, expected };
-    let wants_any = pass.from.iter().zip(&pass.to).any(|(from, to)| from < to);
-    wants_any.then_some(pass)
+    let was_cut_short = from.iter().any(|&taken| taken != least);
+    let more = u32::try_from(in_time / region.pixels().max(1)).unwrap_or(u32::MAX);
+    let most_in_time = least.saturating_add(more);
+    let next = after(least).min(most);
+    let next = if was_cut_short { next } else { next.min(most_in_time) };
+    let expected = region.pixels() * u64::from(most.min(most_in_time).max(next));
+    let wants_any = from.iter().any(|&taken| taken < next);
+    wants_any.then(|| Pass { region, to: vec![next; from.len()], from, expected })
+}
+
+/// The same, of the pixels that have noise still.
+fn next_where_noise_is<'a>(
+    film: &'a Film,
+    goal: Goal,
+    in_time: u64,
+    cells: impl FnOnce(&'a Film) -> Option<Cells<'a>>,
+) -> Option<Pass> {
+    let (to, expected) = cells(film)?.goals(goal.samples.count(), in_time)?;
+    Some(Pass { region: film.region(), from: film.sums()?.taken.clone(), to, expected })
 }
 
 /// How many samples a pixel has after the pass that begins with so many: twice as many at first, then 32 more, and in long
@@ -133,24 +151,25 @@ fn after(samples: u32) -> u32 {
 /// How fast it goes.
 struct Clock {
     limit: Option<f64>,
-    /// The time when the first pass of this run began, and the samples that a pixel had then.
-    begun: Option<(f64, u32)>,
+    /// The time when the first pass of this run began, and the samples that the film had then.
+    begun: Option<(f64, u64)>,
 }
 
 impl Clock {
-    /// How many samples a pixel can have before time is up, if it has so many now.
-    fn most_samples(&mut self, now: Option<f64>, samples: u32) -> u32 {
-        let (Some(limit), Some(now)) = (self.limit, now) else { return u32::MAX };
-        let (then, before) = *self.begun.get_or_insert((now, samples));
-        let gained = samples.saturating_sub(before);
+    /// How many samples there is time for after those that the film has.
+    fn most_samples(&mut self, now: Option<f64>, film: &Film) -> u64 {
+        let (Some(limit), Some(now)) = (self.limit, now) else { return u64::MAX };
+        let (then, before) = *self.begun.get_or_insert((now, film.done()));
+        let gained = film.done().saturating_sub(before);
         match (gained, now < limit) {
-            // One sample is the least that there is.
-            (0, true) => samples.saturating_add(1),
-            (0, false) => samples.max(1),
-            (_, false) => samples,
+            // Nothing is known of the speed: one sample of each pixel.
+            (0, true) => film.region().pixels(),
+            // One sample of each pixel is the least that a picture has.
+            (_, false) if film.sums().is_some_and(|sums| sums.least_and_most().0 == 0) => film.region().pixels(),
+            (_, false) => 0,
             (gained, true) => {
-                let more = (limit - now) / (now - then).max(1e-9) * f64::from(gained);
-                samples.saturating_add(more.min(f64::from(u32::MAX)) as u32)
+                let more = (limit - now) / (now - then).max(1e-9) * gained as f64;
+                more.min(u64::MAX as f64) as u64
             }
         }
     }

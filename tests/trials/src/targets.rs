@@ -117,7 +117,9 @@ pub fn checkpoint(bytes: &[u8]) {
     let mut summed = bytes.to_vec();
     summed.extend(Fingerprint::of(bytes).0.to_le_bytes());
     if let Ok(checkpoint) = Checkpoint::decode(&summed) {
-        assert!(encode_checkpoint(&checkpoint.origin, &checkpoint.scene, &checkpoint.film) == summed);
+        assert!(
+            encode_checkpoint(&checkpoint.origin, &checkpoint.scene, &checkpoint.film, checkpoint.seconds) == summed
+        );
     }
 }
 

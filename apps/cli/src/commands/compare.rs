@@ -72,6 +72,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
 }
 
 fn read(path: &Path) -> Result<Image, Failure> {
+    target::is_picture(path)?;
     Ok(read_picture(path, &DecodeLimits::default())?.to_image(Transfer::Srgb))
 }
 

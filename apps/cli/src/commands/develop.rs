@@ -91,6 +91,7 @@ pub(crate) fn tone_mappings() -> PossibleValuesParser {
 
 /// Develops the film, or says what is in it.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    target::is_picture(&arguments.film)?;
     match arguments.list {
         true => list(&arguments.film, arguments.json),
         false => develop(arguments),

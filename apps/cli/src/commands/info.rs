@@ -1,5 +1,6 @@
 //! `durer info`: what is in a scene, counted; or what a picture file says of itself.
 
+pub(crate) mod film;
 mod picture;
 
 use crate::exit::{Exit, Failure};
@@ -11,7 +12,7 @@ use crate::progress::Show;
 use clap::Args;
 use durer::imaging::{FileFormat, ToneMapping, Transfer};
 use durer::math::DVec3;
-use durer::scene::{Antialias, LightKind, Object, ObjectKind, Picture, PixelFilter};
+use durer::scene::{Antialias, Integrator, LightKind, Object, ObjectKind, Picture, PixelFilter, RenderSettings};
 use durer::{Bounds, CompiledScene, GeometryMemory, Scene};
 use serde_json::{Value, json};
 
@@ -19,7 +20,8 @@ const EXAMPLES: &str = "\
 Examples:
   durer info room.yaml
   durer info room.yaml --json
-  durer info room.png                 size, samples, and which scene it shows";
+  durer info room.png                 size, samples, and which scene it shows
+  durer info part.film                which part of which picture; of checkpoints, too";
 
 /// Say what is in a scene: shapes, materials, images, lights, and how large it is; or in a picture
 #[derive(Args, Debug)]
@@ -35,6 +37,9 @@ pub(crate) struct Arguments {
 
 /// Counts what is in the scene, or reads what the picture says.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    if film::is_one(&arguments.scene.path) {
+        return film::run(&arguments.scene.path, arguments.json);
+    }
     if FileFormat::from_path(&arguments.scene.path).is_ok() {
         return picture::run(&arguments.scene.path, arguments.json);
     }
@@ -171,6 +176,7 @@ impl<'s> Facts<'s> {
 
     fn json(&self) -> Value {
         let Picture { width, height, transfer, exposure, tone_mapping } = self.scene.picture;
+        let render = &self.scene.render;
         let images: Vec<Value> = self
             .scene
             .images
@@ -179,7 +185,18 @@ impl<'s> Facts<'s> {
             .collect();
         json!({
             "picture": { "width": width, "height": height, "transfer": transfer_word(transfer), "exposure": exposure, "tone_mapping": tone_mapping_word(tone_mapping) },
-            "max_depth": self.scene.render.max_depth,
+            "integrator": render.integrator.word(),
+            "max_depth": match render.integrator {
+                Integrator::Path { max_depth, .. } => max_depth,
+                Integrator::Whitted
+                | Integrator::AmbientOcclusion { .. }
+                | Integrator::Normals
+                | Integrator::Depth
+                | Integrator::Uv => render.max_depth,
+            },
+            "samples": render.integrator.takes_samples().then(|| json!({
+                "most": render.samples_a_pixel(), "noise": render.noise, "time": render.time, "seed": render.seed,
+            })),
             "antialias": antialias_text(self.scene.render.antialias),
             "filter": filter_text(self.scene.render.filter),
             "shapes": self.objects.shapes.json(),
@@ -259,8 +276,39 @@ fn bounds_text(bounds: Option<Bounds>) -> String {
 
 fn picture_text(scene: &Scene) -> String {
     let Picture { width, height, transfer, .. } = scene.picture;
-    let (transfer, antialias) = (transfer_word(transfer), antialias_text(scene.render.antialias));
-    format!("{width} × {height} pixels, {transfer}, depth {}, antialias {antialias}", scene.render.max_depth)
+    format!("{width} × {height} pixels, {}, {}", transfer_word(transfer), integrator_text(&scene.render))
+}
+
+/// What is computed, and those settings that mean something to it.
+fn integrator_text(render: &RenderSettings) -> String {
+    let (depth, antialias) = (render.max_depth, antialias_text(render.antialias));
+    let filter = match render.filter {
+        PixelFilter::Box => String::new(),
+        filter => format!(", filter {}", filter_text(filter)),
+    };
+    let what = match render.integrator {
+        Integrator::Whitted => format!("depth {depth}, antialias {antialias}"),
+        Integrator::Path { max_depth, clamp } => {
+            let clamp = clamp.map_or(String::new(), |clamp| format!(", clamp {clamp}"));
+            format!("path, depth {max_depth}{clamp}, {}", samples_text(render))
+        }
+        Integrator::AmbientOcclusion { distance } => {
+            let distance = distance.map_or(String::new(), |distance| format!(", distance {distance}"));
+            format!("ambient_occlusion{distance}, {}", samples_text(render))
+        }
+        Integrator::Normals | Integrator::Depth | Integrator::Uv => {
+            format!("{}, antialias {antialias}", render.integrator.word())
+        }
+    };
+    what + &filter
+}
+
+/// How many samples a pixel takes, and what else ends them.
+fn samples_text(render: &RenderSettings) -> String {
+    let most = if render.noise.is_some() || render.time.is_some() { "at most " } else { "" };
+    let noise = render.noise.map_or(String::new(), |noise| format!(", noise {noise}"));
+    let time = render.time.map_or(String::new(), |time| format!(", time {time} s"));
+    format!("{most}{} samples a pixel{noise}{time}, seed {}", render.samples_a_pixel(), render.seed)
 }
 
 /// The transfer curve, as scenes call it.

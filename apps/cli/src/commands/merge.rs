@@ -1,11 +1,14 @@
 //! `durer merge`: films of parts of a picture become one, or the picture.
 
-use super::render::{Job, Manner};
+use super::render::{Job, Manner, Purpose, differences};
 use super::resume::begun_with;
 use crate::exit::{Exit, Failure};
-use crate::{output, target};
+use crate::{numbers, output, target};
 use clap::Args;
-use durer::{Checkpoint, Film, MergeError, Part, encode_checkpoint, read_checkpoint, write_whole};
+use durer::{
+    Checkpoint, CheckpointError, CheckpointOutline, Film, FilmOutline, MergeError, Merging, Region, SceneHash,
+    encode_checkpoint, read_checkpoint, read_checkpoint_outline, write_whole,
+};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -20,8 +23,9 @@ Examples:
 
 The films must be of one scene with the same settings, and no two may have the same
 samples of a pixel. What comes of it is, byte for byte, what one render with all their
-samples makes; what is missing is told. For a picture the scene must be where it was:
-it says how films are developed.";
+samples makes; what is missing is told, and black in a picture. For a picture the scene
+must be where it was: it says how films are developed. Of one film alone that is not
+finished, or of one checkpoint, a picture can be made, too: of what there is.";
 
 /// Put films of parts of a picture together
 #[derive(Args, Debug)]
@@ -42,56 +46,131 @@ pub(crate) struct Arguments {
 /// Merges.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let paths = &arguments.films;
-    if !target::is_film(&arguments.output) {
-        target::format_of(&arguments.output)?;
-    }
+    let to_film = target::format_or_film(&arguments.output)?.is_none();
     if let Some(film) = paths.iter().find(|film| target::same_place(film, &arguments.output)) {
         let name = film.display();
         return Err(Failure::usage(format!(
             "-o: {name} is one of the films, and is not written over; name another file"
         )));
     }
-    let mut films = Vec::with_capacity(paths.len());
-    let mut first = None;
-    for path in paths {
-        let Checkpoint { origin, scene, film } = read_checkpoint(path)
-            .map_err(|error| Failure::file(format!("cannot merge {}: {error}", path.display())))?;
-        match &first {
-            None => first = Some((origin, scene)),
-            Some((_, other)) if *other == scene => {}
-            Some(_) => {
-                let (path, other) = (path.display(), paths[0].display());
-                let why = "is of another scene, or of other settings";
-                return Err(Failure::file(format!("cannot merge {path}: it {why} than {other}")));
-            }
+    let outlines = paths.iter().map(|path| outline(path)).collect::<Result<Vec<_>, _>>()?;
+    let Some(CheckpointOutline { origin, scene, .. }) = outlines.first().cloned() else {
+        return Err(Failure::usage("there is no film to merge"));
+    };
+    for (path, other) in paths.iter().zip(&outlines) {
+        let differing = differences(&scene, &other.scene);
+        if !differing.is_empty() {
+            let (path, first) = (path.display(), paths[0].display());
+            return Err(Failure::file(format!("cannot merge {path}: it differs from {first} in {differing}")));
         }
-        films.push(film);
     }
-    let Some((origin, scene)) = first else { return Err(Failure::usage("there is no film to merge")) };
-    let film = Film::merge(&films).map_err(|error| Failure::file(describe(error, paths)))?;
-    drop(films);
-    if !arguments.manner.is_quiet() {
-        tell_gaps(&film);
+    let is_quiet = arguments.manner.is_quiet();
+    let film = match &outlines[..] {
+        // A picture can be made of what there is so far.
+        [one] if !to_film && !(one.film.is_complete && !one.film.parts.is_empty()) => {
+            let Checkpoint { film, .. } = read(&paths[0])?;
+            if !is_quiet {
+                tell_unfinished(&paths[0], &film);
+            }
+            film.as_it_is()
+        }
+        _ => merged(paths, outlines)?,
+    };
+    if !is_quiet {
+        tell_gaps(&film, scene.size());
     }
-    if target::is_film(&arguments.output) {
-        let bytes = encode_checkpoint(&origin, &scene, &film);
+    if to_film {
+        let bytes = encode_checkpoint(&origin, &scene, &film, 0.0);
         let cannot = |error| Failure::file(format!("cannot write {}: {error}", arguments.output.display()));
         write_whole(&arguments.output, &bytes).map_err(cannot)?;
+        if !is_quiet {
+            let size = numbers::bytes(bytes.len() as u64);
+            output::note(&format!("{}: {}, {size}", arguments.output.display(), words_of(&film)));
+        }
         return Ok(Exit::Fine);
     }
     let cannot = |why: String| Failure::file(format!("cannot make a picture of {}: {why}", paths[0].display()));
     let mut render = begun_with(&origin).map_err(cannot)?;
     render.developed(&film, Path::new(&origin.folder), arguments.output.clone());
-    let job = Job { arguments: &render, manner: &arguments.manner, origin: Some(origin.clone()) };
-    job.run(Some(Checkpoint { origin, scene, film }))
+    let purpose = Purpose::Merge(&paths[0]);
+    let job = Job { arguments: &render, manner: &arguments.manner, origin: Some(origin.clone()), purpose };
+    job.run(Some(Checkpoint { origin, scene, seconds: 0.0, film }))
+}
+
+fn outline(path: &Path) -> Result<CheckpointOutline, Failure> {
+    read_checkpoint_outline(path).map_err(|error| cannot_merge(path, &error))
+}
+
+fn read(path: &Path) -> Result<Checkpoint, Failure> {
+    read_checkpoint(path).map_err(|error| cannot_merge(path, &error))
+}
+
+fn cannot_merge(path: &Path, error: &CheckpointError) -> Failure {
+    Failure::file(format!("cannot merge {}: {error}", path.display()))
+}
+
+/// One film of all; no more than one of them is held beside it.
+fn merged(paths: &[PathBuf], outlines: Vec<CheckpointOutline>) -> Result<Film, Failure> {
+    let wrong = |error| Failure::file(describe(error, paths));
+    let (scenes, films): (Vec<SceneHash>, Vec<FilmOutline>) =
+        outlines.into_iter().map(|outline| (outline.scene, outline.film)).unzip();
+    let mut merging = Merging::new(films).map_err(wrong)?;
+    for (index, (path, before)) in paths.iter().zip(scenes).enumerate() {
+        let Checkpoint { scene, film, .. } = read(path)?;
+        if scene != before {
+            return Err(wrong(MergeError::Another(index)));
+        }
+        merging.add(index, &film).map_err(wrong)?;
+    }
+    Ok(merging.finish())
+}
+
+/// What a film has: pixels, and samples of them.
+pub(super) fn words_of(film: &Film) -> String {
+    let Region { x, y, width, height } = film.region();
+    let samples = film.sums().map_or(String::new(), |sums| {
+        let (least, most) = sums.least_and_most();
+        let taken = if least == most { least.to_string() } else { format!("{least} to {most}") };
+        format!(", {taken} samples a pixel")
+    });
+    format!("{width} × {height} pixels from {x},{y}{samples}")
+}
+
+/// Says how much there is of a film that is not finished.
+fn tell_unfinished(path: &Path, film: &Film) {
+    let path = path.display();
+    let (finished, all) = (film.finished_pixels(), film.region().pixels());
+    match film.sums() {
+        Some(sums) if !film.is_complete() => {
+            let wanted = sums.parts.iter().map(|part| part.samples.count()).max().unwrap_or(0);
+            let words = words_of(film);
+            output::note(&format!("note: {path} is not finished: {words}, of {wanted}; `durer resume {path}` goes on"));
+        }
+        None if finished < all => {
+            let (finished, all) = (numbers::thousands(finished), numbers::thousands(all));
+            output::note(&format!(
+                "note: {path} is not finished: {finished} of {all} pixels, the others are black; `durer resume {path}` goes on"
+            ));
+        }
+        Some(_) | None => {}
+    }
 }
 
 fn describe(error: MergeError, paths: &[PathBuf]) -> String {
     let path = |index: usize| paths.get(index).map_or(String::new(), |path| path.display().to_string());
     match error {
-        MergeError::NoSamples(index) | MergeError::Unfinished(index) | MergeError::OtherKind(index) => {
-            let help = if error == MergeError::Unfinished(index) { "; `durer resume` goes on with it" } else { "" };
-            format!("cannot merge {}: {error}{help}", path(index))
+        MergeError::NoSamples(index)
+        | MergeError::Unfinished(index)
+        | MergeError::OtherKind(index)
+        | MergeError::Another(index) => {
+            let path = path(index);
+            let help = match error {
+                MergeError::Unfinished(_) => format!(
+                    "; `durer resume {path}` goes on with it, and `durer merge {path} -o picture.png` shows what there is"
+                ),
+                _ => String::new(),
+            };
+            format!("cannot merge {path}: {error}{help}")
         }
         MergeError::Overlap { first, second, both: _ } => {
             format!("cannot merge {} and {}: {error}", path(first), path(second))
@@ -102,15 +181,22 @@ fn describe(error: MergeError, paths: &[PathBuf]) -> String {
 }
 
 /// How many missing pieces are told one by one.
-const MOST_TOLD: usize = 4;
+const MOST_TOLD: usize = 20;
 
-fn tell_gaps(film: &Film) {
-    let gaps = film.gaps();
+/// Says what is missing, of the samples that others have and of the pixels of the picture.
+fn tell_gaps(film: &Film, (width, height): (u32, u32)) {
+    let (gaps, is_cut) = film.gaps();
     for gap in gaps.iter().take(MOST_TOLD) {
         output::note(&format!("note: {gap} are missing"));
     }
-    if gaps.len() > MOST_TOLD {
-        let pieces: &[Part] = &gaps[MOST_TOLD..];
-        output::note(&format!("note: ... and {} more pieces", pieces.len()));
+    if let Some(more @ [_, ..]) = gaps.get(MOST_TOLD..) {
+        let least = if is_cut { "at least " } else { "" };
+        let samples: u64 = more.iter().map(|gap| gap.region.pixels() * u64::from(gap.samples.count())).sum();
+        let (pieces, samples) = (more.len(), numbers::thousands(samples));
+        output::note(&format!("note: ... and {least}{pieces} more pieces, with {samples} samples in all"));
+    }
+    let Region { x, y, width: across, height: down } = film.region();
+    if (across, down) != (width, height) {
+        output::note(&format!("note: these are the pixels {x},{y},{across},{down} of a picture of {width} × {height}"));
     }
 }

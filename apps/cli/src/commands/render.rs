@@ -17,7 +17,7 @@ use layers::LayerOptions;
 use saving::Saving;
 use std::path::{Path, PathBuf};
 
-pub(crate) use job::Job;
+pub(crate) use job::{Job, Purpose, differences};
 pub(crate) use manner::Manner;
 
 const EXAMPLES: &str = "\
@@ -80,7 +80,7 @@ pub(crate) struct Arguments {
 
 /// Renders the scene.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
-    Job { arguments, manner: &arguments.manner, origin: origin() }.run(None)
+    Job { arguments, manner: &arguments.manner, origin: origin(), purpose: Purpose::Render }.run(None)
 }
 
 /// How this program was called, for its checkpoints: the words behind the subcommand.

@@ -1,6 +1,6 @@
 //! `durer resume`: goes on with a render that was cut short.
 
-use super::render::{self, Job, Manner};
+use super::render::{self, Job, Manner, Purpose};
 use crate::args::{Cli, Command};
 use crate::exit::{Exit, Failure};
 use clap::{Args, Parser};
@@ -39,7 +39,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         return Err(cannot("it is a finished film, of which `durer merge` makes a picture".to_owned()));
     }
     render.resumed_in(Path::new(&origin.folder), path);
-    Job { arguments: &render, manner: &arguments.manner, origin: Some(origin) }.run(Some(checkpoint))
+    let purpose = Purpose::Render;
+    Job { arguments: &render, manner: &arguments.manner, origin: Some(origin), purpose }.run(Some(checkpoint))
 }
 
 /// What a render was begun with.

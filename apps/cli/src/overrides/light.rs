@@ -13,11 +13,12 @@ pub(crate) struct Light {
     #[arg(long, value_name = "WHAT", value_parser = integrator)]
     integrator: Option<Integrator>,
 
-    /// Samples a pixel where light is sampled at random, at most if there is a noise or time to reach
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000), allow_negative_numbers = true)]
+    /// Samples a pixel where light is sampled at random, from 1 to 1000000; at most if there is a noise or time to reach
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     samples: Option<u32>,
 
-    /// Takes samples until the error of each part of the picture is below this part of its brightness, such as 0.02
+    /// Takes samples until the noise is below this everywhere: the standard error of a pixel over the root of its
+    /// brightness, so that 0.02 is one in fifty in white
     #[arg(long, value_name = "PART", allow_negative_numbers = true)]
     noise: Option<f32>,
 
@@ -29,8 +30,8 @@ pub(crate) struct Light {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u32>,
 
-    /// Shadow rays of `whitted` to each light that has an area; with 0, what glows lights nothing
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=4096), allow_negative_numbers = true)]
+    /// Shadow rays of `whitted` to each light that has an area, at most 4096; with 0, what glows lights nothing
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     light_samples: Option<u32>,
 
     /// Makes a PNG or JPEG brighter by a factor of 2 for each 1
@@ -62,6 +63,17 @@ impl Light {
     /// True if it says what is computed.
     pub(super) fn chooses_integrator(&self) -> bool {
         self.integrator.is_some()
+    }
+
+    /// The options that were given although they mean nothing to this integrator.
+    pub(super) fn meaningless_to(&self, integrator: &Integrator) -> Vec<&'static str> {
+        let of_samples =
+            [("--samples", self.samples.is_some()), ("--noise", self.noise.is_some()), ("--time", self.time.is_some())];
+        let of_whitted = [("--light-samples", self.light_samples.is_some())];
+        let given = |(option, is_given): (&'static str, bool)| is_given.then_some(option);
+        let samples = of_samples.into_iter().filter(|_| !integrator.takes_samples()).filter_map(given);
+        let whitted = of_whitted.into_iter().filter(|_| *integrator != Integrator::Whitted).filter_map(given);
+        samples.chain(whitted).collect()
     }
 }
 

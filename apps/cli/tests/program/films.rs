@@ -1,6 +1,7 @@
 //! Films of samples: parts of pictures, merged; renders that end by noise or time; checkpoints of them.
 
 use crate::workshop::Workshop;
+use durer::{Checkpoint, encode_checkpoint, read_checkpoint};
 
 const BALL: &str = "picture: {width: 60, height: 40}\nrender: {integrator: path, samples: 8}\nobjects:\n\
     - plane: {material: {matte: {color: gray}}}\n- sphere: {center: [0, 1, 0], material: {matte: {color: tomato}}}\n";
@@ -44,7 +45,10 @@ fn films_that_do_not_fit_are_told() {
     workshop.fails("merge a.film b.film -o c.png", 4, "both have samples 2..3 of the pixels 0,0,60,40");
     workshop.put("other.yaml", &BALL.replace("tomato", "gold"));
     workshop.fine("render other.yaml --sample-range 5..6 -o other.film");
-    workshop.fails("merge a.film other.film -o c.png", 4, "is of another scene");
+    workshop.fails("merge a.film other.film -o c.png", 4, "it differs from a.film in the scene");
+    workshop.fine("render ball.yaml --seed 3 --exposure 1 --sample-range 5..6 -o seed.film");
+    let differing = "it differs from a.film in the setting `exposure`, the setting `seed`";
+    workshop.fails("merge a.film seed.film -o c.png", 4, differing);
     workshop.fails("merge a.film ball.yaml -o c.png", 4, "this is no checkpoint of durer");
     workshop.fails("merge a.film -o c.gif", 2, "gif");
     workshop.fails("resume a.film", 4, "it is a finished film");
@@ -55,7 +59,110 @@ fn films_that_do_not_fit_are_told() {
     assert!(!workshop.path("c.png").exists());
     // The scene says how films are developed.
     workshop.put("ball.yaml", &BALL.replace("tomato", "gold"));
-    workshop.fails("merge a.film -o c.png", 3, "the scene changed");
+    let why = "cannot make a picture of a.film: since it was made, the scene changed";
+    workshop.fails("merge a.film -o c.png", 3, why);
+}
+
+/// Each says what to do instead.
+#[test]
+fn films_are_no_pictures() {
+    let workshop = workshop();
+    workshop.fine("render ball.yaml --sample-range 0..3 -o a.film");
+    let hint = "make one of it with `durer merge a.film -o picture.exr`";
+    workshop.fails("develop a.film", 4, hint);
+    workshop.fails("compare a.film a.film", 4, hint);
+    workshop.fails("render ball.yaml -o a.gif", 2, "hdr and pfm, and film for `durer merge`");
+    workshop.fails("merge a.film -o a.gif", 2, "hdr and pfm, and film for `durer merge`");
+}
+
+#[test]
+fn films_say_what_they_are() {
+    let workshop = workshop();
+    workshop.fine("render ball.yaml --sample-range 3..8 --crop 25,0,35,40 -o a.film");
+    let about = workshop.fine("info a.film").stdout;
+    for words in [
+        "film, finished",
+        "35 × 40 pixels from 25,0, 5 samples a pixel",
+        "60 × 40 pixels",
+        "integrator path",
+        "samples 3..8 of the pixels 25,0,35,40",
+        "durer render ball.yaml --sample-range 3..8",
+    ] {
+        assert!(about.contains(words), "{words}: {about}");
+    }
+    let json = workshop.fine("info a.film --json").json();
+    assert_eq!((&json["complete"], &json["picture"]["width"]), (&true.into(), &60.into()));
+    assert_eq!(json["parts"][0]["samples"], serde_json::json!([3, 8]));
+    let bytes = workshop.bytes("a.film");
+    std::fs::write(workshop.path("b.film"), &bytes[..bytes.len() / 2]).unwrap();
+    workshop.fails("info b.film", 4, "it is damaged");
+}
+
+/// What is missing is told: of the pixels of the picture, too. Films that are written are told of.
+#[test]
+fn what_is_missing_is_told() {
+    let workshop = workshop();
+    workshop.fine("render ball.yaml --sample-range 0..3 --crop 0,0,25,40 -o a.film");
+    workshop.fine("render ball.yaml --sample-range 3..8 --crop 0,0,25,40 -o b.film");
+    let told = workshop.fine("merge a.film b.film -o c.film").stderr;
+    assert!(told.contains("these are the pixels 0,0,25,40 of a picture of 60 × 40"), "{told}");
+    assert!(told.contains("c.film: 25 × 40 pixels from 0,0, 8 samples a pixel, "), "{told}");
+    assert!(!told.contains("missing"), "{told}");
+}
+
+/// What a render that was stopped has can be looked at, and gone on with.
+#[test]
+fn a_picture_is_made_of_what_there_is() {
+    let workshop = workshop();
+    workshop.put("long.yaml", &BALL.replace("samples: 8", "samples: 1000000"));
+    for (scene, way, words) in [
+        ("long.yaml", "", "of 1000000; `durer resume c` goes on"),
+        ("room.yaml", "--width 600 --antialias grid:8", "pixels, the others are black; `durer resume c` goes on"),
+    ] {
+        let words_of_render =
+            format!("render {scene} {way} -o a.png --checkpoint c --checkpoint-every 0 --limits time=2 --threads 1");
+        let ran = workshop.run(&words_of_render);
+        assert_eq!(ran.code, Some(130), "{}", ran.stderr);
+        let told = workshop.fine("merge c -o now.png").stderr;
+        assert!(told.contains("c is not finished: ") && told.contains(words), "{told}");
+        assert!(workshop.path("now.png").exists() && workshop.path("c").exists());
+        assert!(workshop.fine("info c").stdout.contains("so far"));
+        workshop.fails(
+            "merge c -o now.film",
+            4,
+            if way.is_empty() { "it is not finished" } else { "takes no samples" },
+        );
+        std::fs::remove_file(workshop.path("c")).unwrap();
+    }
+}
+
+/// The time that was taken before counts: if nothing is left of it, going on ends with the pass that was begun.
+#[test]
+fn time_does_not_begin_again() {
+    let workshop = workshop();
+    workshop.put("timed.yaml", &BALL.replace("samples: 8", "samples: 1000000, time: 100"));
+    let render = "render timed.yaml -o a.png --checkpoint c --checkpoint-every 0 --limits time=1 --threads 1";
+    assert_eq!(workshop.run(render).code, Some(130));
+    let Checkpoint { origin, scene, film, seconds } = read_checkpoint(&workshop.path("c")).unwrap();
+    assert!(seconds > 0.0, "{seconds}");
+    let most = film.sums().unwrap().least_and_most().1;
+    std::fs::write(workshop.path("c"), encode_checkpoint(&origin, &scene, &film, 100.0)).unwrap();
+    let stats = workshop.fine("resume c --stats json").json();
+    assert_eq!((&stats["samples"]["least"], &stats["samples"]["most"]), (&most.into(), &most.into()));
+}
+
+/// With a goal for noise, any parts are those of the whole.
+#[test]
+fn parts_with_noise_are_merged_to_the_bytes_of_one_run() {
+    let workshop = workshop();
+    workshop.put("noise.yaml", &BALL.replace("samples: 8", "samples: 150, noise: 0.03"));
+    workshop.fine("render noise.yaml -o whole.png --alpha");
+    workshop.fine("render noise.yaml --crop 0,0,21,40 -o a.film");
+    workshop.fine("render noise.yaml --crop 21,0,39,13 -o b.film");
+    workshop.fine("render noise.yaml --crop 21,13,39,27 -o c.film");
+    workshop.fine("merge c.film a.film b.film -o merged.png");
+    workshop.fine("render noise.yaml -o opaque.png");
+    assert_eq!(workshop.bytes("merged.png"), workshop.bytes("opaque.png"));
 }
 
 #[test]

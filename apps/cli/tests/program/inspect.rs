@@ -108,3 +108,17 @@ fn info_tells_what_a_picture_says_of_itself() {
     workshop.fails("info b.png", 4, "not a PNG");
     workshop.fails("info c.png", 4, "c.png");
 }
+
+/// Not those of another integrator.
+#[test]
+fn settings_are_those_of_the_integrator() {
+    let workshop = Workshop::new();
+    assert!(workshop.fine("info room.yaml").stdout.contains("srgb, depth 5, antialias none"));
+    workshop.put("path.yaml", "render: {integrator: path, noise: 0.1, seed: 4, filter: mitchell}\nobjects: [sphere]\n");
+    let about = workshop.fine("info path.yaml").stdout;
+    let expected = "path, depth 16, at most 4096 samples a pixel, noise 0.1, seed 4, filter mitchell:2";
+    assert!(about.contains(expected) && !about.contains("antialias"), "{about}");
+    let json = workshop.fine("info path.yaml --json").json();
+    assert_eq!((&json["integrator"], &json["max_depth"]), (&"path".into(), &16.into()));
+    assert_eq!(json["samples"]["most"], 4096);
+}

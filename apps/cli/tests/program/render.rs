@@ -146,17 +146,17 @@ fn the_command_line_wins_over_the_file() {
 #[test]
 fn settings_beyond_the_limits_name_their_option() {
     let workshop = Workshop::new();
-    workshop.fails("render room.yaml --width 70000", 2, "'--width <PIXELS>': 70000 is not in 1..=65535");
+    workshop.fails("render room.yaml --width 70000", 2, "--width: width must be from 1 to 65535 pixels, not 70000");
     workshop.fails("render room.yaml --height 65535", 2, "--height, from which the width follows: width must be");
-    workshop.fails("render room.yaml --width 0", 2, "0 is not in 1..=65535");
+    workshop.fails("render room.yaml --width 0", 2, "--width: width must be from 1 to 65535 pixels, not 0");
     workshop.fails("render room.yaml --height 30000", 2, "--height: a picture may have at most 400 million pixels");
     workshop.fails("render room.yaml --antialias grid:100000", 2, "--antialias");
     workshop.fails("render room.yaml --antialias recursive:nan", 2, "--antialias");
     workshop.fails("render room.yaml --antialias often", 2, "recursive[:THRESHOLD");
-    workshop.fails("render room.yaml --max-depth 0", 2, "0 is not in 1..=100");
+    workshop.fails("render room.yaml --max-depth 0", 2, "--max-depth: max_depth must be from 1 to 100, not 0");
     workshop.fails("render room.yaml --integrator magic", 2, "expected `whitted`, `path");
     workshop.fails("render room.yaml --integrator path:0", 2, "--integrator: max_depth must be from 1");
-    workshop.fails("render room.yaml --samples 0", 2, "0 is not in 1..=1000000");
+    workshop.fails("render room.yaml --samples 0", 2, "--samples: samples must be from 1 to 1000000, not 0");
     workshop.fails("render room.yaml --noise 7", 2, "--noise: noise must be from 0.0001 to 1");
     workshop.fails("render room.yaml --time -1", 2, "--time: time must be from 0.001");
     workshop.fails("render room.yaml --exposure dark", 2, "expected a number from -100 to 100");
@@ -167,6 +167,35 @@ fn settings_beyond_the_limits_name_their_option() {
     workshop.fails("render room.yaml --crop 0,0,0,0", 2, "width and height of the region must be at least 1");
     workshop.fails("render room.yaml --threads -1", 2, "-1 is not in 1..=1024");
     workshop.fails("render room.yaml --threads 0", 2, "--threads");
+}
+
+#[test]
+fn all_numbers_that_are_wrong_are_told_at_once() {
+    let workshop = Workshop::new();
+    let words = "render room.yaml --integrator path --samples 0 --noise 7 --time -1 --max-depth 2000000 --width 0";
+    let told = workshop.fails(words, 2, "--samples: samples must be").stderr;
+    for message in
+        ["--noise: noise must", "--time: time must", "--max-depth: max_depth must be from 1 to 1000000", "--width: "]
+    {
+        assert!(told.contains(message), "{message}: {told}");
+    }
+    workshop.fine("render room.yaml --integrator path --max-depth 200 --samples 1 -o a.png");
+}
+
+#[test]
+fn options_that_mean_nothing_are_told() {
+    let workshop = Workshop::new();
+    let told = workshop.fine("render room.yaml -o a.png --samples 3 --noise 0.5 --time 100 --quiet").stderr;
+    for option in ["--samples", "--noise", "--time"] {
+        assert!(told.contains(&format!("warning: {option} means nothing to `whitted`")), "{told}");
+    }
+    let words = "render room.yaml -o a.png --integrator path --samples 1 --antialias none --light-samples 3 --quiet";
+    let told = workshop.fine(words).stderr;
+    assert!(told.contains("--antialias means nothing to `path`") && told.contains("--light-samples means"), "{told}");
+    assert_eq!(
+        workshop.fine("render room.yaml -o a.png --integrator path --samples 1 --max-depth 3 --quiet").stderr,
+        ""
+    );
 }
 
 #[test]

@@ -1,24 +1,25 @@
 //! The bytes of a checkpoint.
 
-use super::{Checkpoint, CheckpointError, Origin};
+use super::{Checkpoint, CheckpointError, CheckpointOutline, Origin};
 use crate::SceneHash;
 use durer_math::{DVec2, Rgb};
-use durer_render::{BadSample, Film, FilmParts, Part, RayCounts, Region, SampleRange, Sums};
+use durer_render::{BadSample, Calm, Film, FilmOutline, FilmParts, Part, RayCounts, Region, SampleRange, Sums};
 use twox_hash::XxHash3_128;
 
 /// How files begin. The last three bytes are changed by programs that take the file for a text.
 const MAGIC: &[u8; 8] = b"durer\x1a\r\n";
 
 /// Of the format.
-pub(super) const VERSION: u32 = 2;
+pub(super) const VERSION: u32 = 3;
 
 /// Bytes of a hash.
 const HASH: usize = 16;
 
 const MADE_BY: &str = env!("CARGO_PKG_VERSION");
 
-/// The bytes of a checkpoint.
-pub fn encode_checkpoint(origin: &Origin, scene: &SceneHash, film: &Film) -> Vec<u8> {
+/// The bytes of a checkpoint. The seconds are those that the film has taken so far; of a finished one they are not kept, since
+/// films with the same samples have the same bytes.
+pub fn encode_checkpoint(origin: &Origin, scene: &SceneHash, film: &Film, seconds: f64) -> Vec<u8> {
     let mut out = Vec::with_capacity(most_bytes(film));
     out.extend_from_slice(MAGIC);
     out.extend_from_slice(&VERSION.to_le_bytes());
@@ -31,6 +32,11 @@ pub fn encode_checkpoint(origin: &Origin, scene: &SceneHash, film: &Film) -> Vec
         text(&mut out, name);
         out.extend_from_slice(&hash.to_le_bytes());
     }
+    text(&mut out, &scene.integrator);
+    out.extend_from_slice(&scene.size.0.to_le_bytes());
+    out.extend_from_slice(&scene.size.1.to_le_bytes());
+    let seconds = if film.is_complete() { 0.0 } else { seconds };
+    out.extend_from_slice(&seconds.to_le_bytes());
     put_film(&mut out, film);
     let checksum = XxHash3_128::oneshot(&out);
     out.extend_from_slice(&checksum.to_le_bytes());
@@ -45,7 +51,8 @@ fn text(out: &mut Vec<u8>, text: &str) {
 /// Of a film, and of all else that is not unusually long.
 fn most_bytes(film: &Film) -> usize {
     let pixel = film.sums().map_or(13, |sums| if sums.direct.is_empty() { SUMS } else { SUMS + 48 });
-    pixel * film.pixels().len() + film.finished_tiles().len() + 4096
+    let cells = film.sums().map_or(0, |sums| sums.calm.len() * CALM);
+    pixel * film.pixels().len() + cells + film.finished_tiles().len() + 4096
 }
 
 fn put_region(out: &mut Vec<u8>, Region { x, y, width, height }: Region) {
@@ -78,6 +85,8 @@ fn put_film(out: &mut Vec<u8>, film: &Film) {
 
 /// Bytes of the sums of a pixel.
 const SUMS: usize = 4 + 2 * 4 + 3 * 16 + 16;
+/// Of what is known of the noise of a cell.
+const CALM: usize = 4 + 1 + 4;
 
 fn put_sums(out: &mut Vec<u8>, sums: &Sums) {
     out.extend_from_slice(&(sums.parts.len() as u32).to_le_bytes());
@@ -85,6 +94,12 @@ fn put_sums(out: &mut Vec<u8>, sums: &Sums) {
         put_region(out, *region);
         out.extend_from_slice(&samples.start.to_le_bytes());
         out.extend_from_slice(&samples.end.to_le_bytes());
+    }
+    out.extend_from_slice(&(sums.calm.len() as u32).to_le_bytes());
+    for Calm { samples, passes, first } in &sums.calm {
+        out.extend_from_slice(&samples.to_le_bytes());
+        out.push(*passes);
+        out.extend_from_slice(&first.to_le_bytes());
     }
     let counts = sums.taken.iter().chain(sums.counts.as_flattened());
     counts.for_each(|count| out.extend_from_slice(&count.to_le_bytes()));
@@ -99,27 +114,49 @@ impl Checkpoint {
     ///
     /// They are not those of a checkpoint that was made by this version of durer.
     pub fn decode(bytes: &[u8]) -> Result<Checkpoint, CheckpointError> {
-        let rest = bytes.strip_prefix(MAGIC).ok_or(match MAGIC.starts_with(bytes) {
-            true => CheckpointError::Damaged,
-            false => CheckpointError::AnotherKind,
-        })?;
-        let (version, _) = rest.split_first_chunk().ok_or(CheckpointError::Damaged)?;
-        let version = u32::from_le_bytes(*version);
-        if version != VERSION {
-            return Err(CheckpointError::OtherFormat(version));
-        }
+        // Whatever is wrong with the first bytes is told first.
+        begin(bytes)?;
         let (content, checksum) = bytes.split_last_chunk::<HASH>().ok_or(CheckpointError::Damaged)?;
         if XxHash3_128::oneshot(content).to_le_bytes() != *checksum {
             return Err(CheckpointError::Damaged);
         }
-        let mut input = Input(content.get(MAGIC.len() + 4..).ok_or(CheckpointError::Damaged)?);
-        let made_by = input.text().ok_or(CheckpointError::Damaged)?;
-        if made_by != MADE_BY {
-            return Err(CheckpointError::OtherVersion(made_by));
-        }
+        let mut input = made_here(content)?;
         let checkpoint = input.checkpoint().ok_or(CheckpointError::Damaged)?;
         if input.0.is_empty() { Ok(checkpoint) } else { Err(CheckpointError::Damaged) }
     }
+}
+
+impl CheckpointOutline {
+    /// Reads it from the first bytes of a checkpoint. Whether the others are there and are right, it does not say.
+    pub(super) fn decode(bytes: &[u8]) -> Result<CheckpointOutline, CheckpointError> {
+        begin(bytes)?;
+        made_here(bytes)?.outline().ok_or(CheckpointError::Damaged)
+    }
+}
+
+/// What follows the version of the format.
+fn begin(bytes: &[u8]) -> Result<Input<'_>, CheckpointError> {
+    let rest = bytes.strip_prefix(MAGIC).ok_or(match MAGIC.starts_with(bytes) {
+        true => CheckpointError::Damaged,
+        false => CheckpointError::AnotherKind,
+    })?;
+    let (version, rest) = rest.split_first_chunk().ok_or(CheckpointError::Damaged)?;
+    let version = u32::from_le_bytes(*version);
+    if version == VERSION { Ok(Input(rest)) } else { Err(CheckpointError::OtherFormat(version)) }
+}
+
+/// What follows the version of the program, if it is ours.
+fn made_here(bytes: &[u8]) -> Result<Input<'_>, CheckpointError> {
+    let mut input = begin(bytes)?;
+    let made_by = input.text().ok_or(CheckpointError::Damaged)?;
+    if made_by == MADE_BY { Ok(input) } else { Err(CheckpointError::OtherVersion(made_by)) }
+}
+
+/// What stands before the film.
+struct Head {
+    origin: Origin,
+    scene: SceneHash,
+    seconds: f64,
 }
 
 /// What is still to be read. Each method gives `None` if it is not there.
@@ -165,13 +202,39 @@ impl<'a> Input<'a> {
         Some(list)
     }
 
-    fn checkpoint(&mut self) -> Option<Checkpoint> {
+    fn head(&mut self) -> Option<Head> {
         let origin = Origin { folder: self.text()?, words: self.list(Input::text)? };
         let parts = self.list(|input| Some((input.text()?, u128::from_le_bytes(input.array()?))))?;
-        Some(Checkpoint { origin, scene: SceneHash { parts }, film: self.film()? })
+        let scene = SceneHash { parts, integrator: self.text()?, size: (self.u32()?, self.u32()?) };
+        let seconds =
+            Some(f64::from_le_bytes(self.array()?)).filter(|seconds| seconds.is_finite() && *seconds >= 0.0)?;
+        Some(Head { origin, scene, seconds })
     }
 
-    fn film(&mut self) -> Option<Film> {
+    fn checkpoint(&mut self) -> Option<Checkpoint> {
+        let Head { origin, scene, seconds } = self.head()?;
+        let film = self.film()?;
+        // A finished film has one form.
+        if film.is_complete() && seconds.to_bits() != 0 {
+            return None;
+        }
+        Some(Checkpoint { origin, scene, seconds, film })
+    }
+
+    fn outline(&mut self) -> Option<CheckpointOutline> {
+        let Head { origin, scene, .. } = self.head()?;
+        let FilmParts { region, .. } = self.account()?;
+        let mut film = FilmOutline { region, ..FilmOutline::default() };
+        if self.flag()? {
+            film.is_complete = self.flag()?;
+            film.direct = self.flag()?;
+            film.parts = self.parts()?;
+        }
+        film.is_possible().then_some(CheckpointOutline { origin, scene, film })
+    }
+
+    /// All of a film but its pixels.
+    fn account(&mut self) -> Option<FilmParts> {
         let region = self.region()?;
         let [eye, reflected, transmitted] = [self.u64()?, self.u64()?, self.u64()?];
         let rays = RayCounts { eye, reflected, transmitted, shadow: self.u64()?, cut_off: self.u64()? };
@@ -183,8 +246,19 @@ impl<'a> Input<'a> {
             return None;
         }
         let first_bad_sample = is_there.then_some(BadSample { at });
-        let parts = FilmParts { region, rays, bad_samples, first_bad_sample, ..FilmParts::default() };
+        Some(FilmParts { region, rays, bad_samples, first_bad_sample, ..FilmParts::default() })
+    }
+
+    fn film(&mut self) -> Option<Film> {
+        let parts = self.account()?;
         Film::from_parts(if self.flag()? { self.with_sums(parts)? } else { self.with_pixels(parts)? })
+    }
+
+    fn parts(&mut self) -> Option<Vec<Part>> {
+        self.list(|input| {
+            let region = input.region()?;
+            Some(Part { region, samples: SampleRange { start: input.u32()?, end: input.u32()? } })
+        })
     }
 
     fn region(&mut self) -> Option<Region> {
@@ -202,9 +276,10 @@ impl<'a> Input<'a> {
 
     fn with_sums(&mut self, parts: FilmParts) -> Option<FilmParts> {
         let (region, is_finished, has_direct) = (parts.region, self.flag()?, self.flag()?);
-        let of = self.list(|input| {
-            let region = input.region()?;
-            Some(Part { region, samples: SampleRange { start: input.u32()?, end: input.u32()? } })
+        let of = self.parts()?;
+        let calm = self.list(|input| {
+            let (samples, [passes], first) = (input.u32()?, input.array()?, input.u32()?);
+            Some(Calm { samples, passes, first })
         })?;
         let pixels = region.pixels();
         let numbers =
@@ -218,6 +293,7 @@ impl<'a> Input<'a> {
             colors: amounts(self.bytes(pixels.checked_mul(48)?)?).as_chunks().0.to_vec(),
             direct: amounts(self.bytes(if has_direct { pixels.checked_mul(48)? } else { 0 })?).as_chunks().0.to_vec(),
             squares: amounts(self.bytes(pixels.checked_mul(16)?)?),
+            calm,
         };
         // All sums of so many pixels are there, so that there are not too many tiles either.
         let finished = vec![is_finished; usize::try_from(region.tile_count()).ok()?];

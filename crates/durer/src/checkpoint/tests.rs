@@ -42,9 +42,11 @@ fn stopped_after(scene: &CompiledScene, region: Option<Region>, calls: usize) ->
 
 fn through_bytes(scene: &CheckedScene, film: &Film) -> Film {
     let origin = Origin { folder: "/somewhere".to_owned(), words: vec!["a.yaml".to_owned(), "ö".to_owned()] };
-    let bytes = encode_checkpoint(&origin, &hash(scene), film);
+    let seconds = if film.is_complete() { 0.0 } else { 12.5 };
+    let bytes = encode_checkpoint(&origin, &hash(scene), film, 12.5);
     let checkpoint = Checkpoint::decode(&bytes).unwrap();
     assert_eq!((&checkpoint.origin, &checkpoint.scene, &checkpoint.film), (&origin, &hash(scene), film));
+    assert_eq!(checkpoint.seconds, seconds);
     checkpoint.film
 }
 
@@ -61,7 +63,7 @@ fn going_on_from_a_file_gives_the_picture_of_one_go() {
         "antialias: pov2, filter: gaussian",
         "antialias: {grid: 2}, filter: {blackman_harris: {radius: 3}}",
         "integrator: path, samples: 6",
-        "integrator: path, samples: 20, noise: 0.1, filter: mitchell",
+        "integrator: path, samples: 20, filter: mitchell",
         "integrator: ambient_occlusion, samples: 3",
     ];
     let mut cut_short = 0;
@@ -84,6 +86,23 @@ fn going_on_from_a_file_gives_the_picture_of_one_go() {
     assert!(cut_short > ways.len() * 3, "{cut_short}");
 }
 
+/// What was known of its noise is known again.
+#[test]
+fn going_on_where_noise_is_gives_the_picture_of_one_go() {
+    let scene = scene("integrator: path, samples: 200, noise: 0.12");
+    let compiled = crate::compile(&scene);
+    let region = Some(Region { x: 27, y: 29, width: 19, height: 38 });
+    let whole = crate::render(&compiled, &RenderOptions { region, ..ONE_THREAD }, &()).unwrap();
+    let (least, most) = whole.sums().unwrap().least_and_most();
+    assert!(least == 64 && most > 64, "{least} {most}");
+    for calls in [1, 17, 26, 27, 32] {
+        let part = stopped_after(&compiled, region, calls);
+        assert!(!part.is_complete());
+        let resumed = crate::render_on(&compiled, through_bytes(&scene, &part), &ONE_THREAD, &()).unwrap();
+        assert_eq!(resumed, whole, "{calls}");
+    }
+}
+
 #[test]
 fn every_flipped_bit_and_every_cut_is_found() {
     every_flipped_bit_of(&scene("antialias: none"));
@@ -93,7 +112,7 @@ fn every_flipped_bit_and_every_cut_is_found() {
 fn every_flipped_bit_of(scene: &CheckedScene) {
     let film = stopped_after(&crate::compile(scene), Some(Region { x: 0, y: 0, width: 3, height: 2 }), 1);
     let origin = Origin { folder: "a".to_owned(), words: vec!["b".to_owned()] };
-    let bytes = encode_checkpoint(&origin, &hash(scene), &film);
+    let bytes = encode_checkpoint(&origin, &hash(scene), &film, 1.0);
     assert!(Checkpoint::decode(&bytes).is_ok());
     for at in 0..bytes.len() {
         for bit in 0..8 {
@@ -117,13 +136,14 @@ fn every_flipped_bit_of(scene: &CheckedScene) {
 fn wrong_contents_under_a_right_checksum_are_refused() {
     wrong_contents_of(&scene("antialias: none"));
     wrong_contents_of(&scene("integrator: path, samples: 2"));
+    wrong_contents_of(&scene("integrator: path, samples: 3, noise: 0.1"));
 }
 
 fn wrong_contents_of(scene: &CheckedScene) {
     let compiled = crate::compile(scene);
     let film = stopped_after(&compiled, Some(Region { x: 0, y: 0, width: 3, height: 2 }), 1);
     let origin = Origin { folder: "folder".to_owned(), words: vec!["word".to_owned()] };
-    let bytes = encode_checkpoint(&origin, &hash(scene), &film);
+    let bytes = encode_checkpoint(&origin, &hash(scene), &film, 1.0);
     let sealed = |content: &[u8]| {
         let checksum = twox_hash::XxHash3_128::oneshot(content);
         [content, &checksum.to_le_bytes()].concat()
@@ -135,7 +155,7 @@ fn wrong_contents_of(scene: &CheckedScene) {
         spoilt[at] = 0xff;
         // Whatever comes of it: no panic, and no more memory than the bytes are worth.
         if let Ok(read) = Checkpoint::decode(&sealed(&spoilt)) {
-            assert_eq!(encode_checkpoint(&read.origin, &read.scene, &read.film), sealed(&spoilt), "{at}");
+            assert_eq!(encode_checkpoint(&read.origin, &read.scene, &read.film, read.seconds), sealed(&spoilt), "{at}");
             // Whatever was read can be gone on with, if it is of the picture at all.
             let _ = crate::render_on(&compiled, read.film, &ONE_THREAD, &());
         }

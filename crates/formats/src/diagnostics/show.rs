@@ -1,6 +1,6 @@
 //! Diagnostics for people, in the manner of rustc.
 
-use super::{Diagnostic, Diagnostics, Severity};
+use super::{Diagnostic, Diagnostics, Related, Severity};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use std::fmt;
 use std::ops::Range;
@@ -35,9 +35,20 @@ fn render_one(diagnostic: &Diagnostic, source: &str, renderer: &Renderer) -> Str
         Severity::Warning => Level::WARNING,
     };
     let primary = (diagnostic.span.clone(), diagnostic.label.as_deref());
-    let mut group =
-        level.primary_title(&diagnostic.message).element(snippet(diagnostic, source, primary, AnnotationKind::Primary));
-    for place in &diagnostic.related {
+    let mut lines = snippet(diagnostic, source, primary, AnnotationKind::Primary);
+    let related = diagnostic.related.iter();
+    // What is in the same line is marked there.
+    let line = short_line_of(source, &diagnostic.span);
+    let is_beside = |place: &&Related| line.is_some() && short_line_of(source, &place.span) == line;
+    for place in related.clone().filter(is_beside) {
+        if let Some(line) = short_line_of(source, &place.span) {
+            let span = within(source, &place.span);
+            let span = span.start - line.start..span.end.clamp(span.start, line.end) - line.start;
+            lines = lines.annotation(AnnotationKind::Context.span(span).label(place.label.as_str()));
+        }
+    }
+    let mut group = level.primary_title(&diagnostic.message).element(lines);
+    for place in related.filter(|place| !is_beside(place)) {
         let secondary = (place.span.clone(), Some(place.label.as_str()));
         group = group.element(snippet(diagnostic, source, secondary, AnnotationKind::Context));
     }
@@ -63,6 +74,15 @@ fn snippet<'a>(
     let line_number = source[..start].bytes().filter(|&b| b == b'\n').count() + 1;
     let (cut, span) = cut_line(&source[start..end], span.start - start..span.end.min(end).max(span.start) - start);
     Snippet::source(cut).line_start(line_number).path(diagnostic.file.as_str()).annotation(kind.span(span).label(label))
+}
+
+/// The line in which a span begins, if it is shown as a whole.
+fn short_line_of(source: &str, span: &Range<usize>) -> Option<Range<usize>> {
+    let at = within(source, span).start;
+    let bom = if source.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+    let start = source[..at].rfind('\n').map_or(bom, |newline| newline + 1);
+    let line = source.get(start..)?.lines().next().unwrap_or_default();
+    (line.len() <= LONG_LINE && at >= start && at <= start + line.len()).then(|| start..start + line.len())
 }
 
 /// The line, or the part of it around the place with `…` for what is missing, and blanks before it so that columns stay
@@ -99,6 +119,31 @@ fn boundary(text: &str, mut at: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn two_places_in_one_line_are_marked_in_it() {
+        let of = |source: &str, other: usize| {
+            let list = vec![Diagnostic {
+                severity: Severity::Error,
+                message: "twice".to_owned(),
+                file: "a.yaml".to_owned(),
+                line: 1,
+                column: 4,
+                span: 3..4,
+                label: None,
+                help: None,
+                related: vec![Related { label: "the first".to_owned(), line: 1, column: 1, span: other..other + 1 }],
+            }];
+            Diagnostics { list, source: source.into(), omitted: 0 }.render(false)
+        };
+        let one = of("{a: 1, b: 2}\n", 9);
+        assert_eq!(one.lines().filter(|line| line.contains("{a: 1, b: 2}")).count(), 1, "{one}");
+        assert!(one.contains("^     - the first"), "{one}");
+        let two = of("{a: 1,\n b: 2}\n", 11);
+        assert!(two.contains("b: 2}") && two.contains("- the first"), "{two}");
+        let long = of(&("{a: 1, ".to_owned() + &" ".repeat(300) + "b: 2}"), 310);
+        assert!(long.contains("the first"), "{long}");
+    }
 
     #[test]
     fn places_in_long_lines_keep_their_columns() {

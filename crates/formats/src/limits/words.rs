@@ -98,9 +98,20 @@ fn value_of(limit: Limit, text: &str) -> Result<u64, String> {
         Unit::Things => "a number, for example 500k or 4M",
     };
     let wrong = || format!("{}: expected {expected}, found `{text}`", limit.key());
-    let number: f64 = number.parse().map_err(|_| wrong())?;
+    let (number, factor): (f64, u64) = (number.parse().map_err(|_| wrong())?, factor.ok_or_else(wrong)?);
+    let amount = number * factor as f64;
+    // Parts of a byte are let pass where somebody thought in larger units.
+    let is_whole = amount.fract() == 0.0 || (factor > 1 && limit.unit() == Unit::Bytes);
+    if !is_whole {
+        return Err(format!("{}: expected a whole number, found `{text}`", limit.key()));
+    }
     // What is too large for an integer becomes the largest: no limit.
-    Ok((number * factor.ok_or_else(wrong)? as f64) as u64)
+    let value = amount as u64;
+    let most = Limits::default().max_nesting;
+    if limit == Limit::Nesting && value > most {
+        return Err(format!("nesting: at most {most} is possible, found `{text}`"));
+    }
+    Ok(value)
 }
 
 fn factor(units: &[(&str, u64)], word: &str) -> Option<u64> {
@@ -142,6 +153,12 @@ mod tests {
         assert!(read("pixels").unwrap_err().contains("expected KEY=VALUE"));
         assert!(read("time=1,untrusted").unwrap_err().contains("must come first"));
         assert!(read("").is_err());
+        for parts in ["pixels=1.5", "pixels=1.0005k", "time=0.5", "memory=1.5", "nesting=1.5"] {
+            assert!(read(parts).unwrap_err().contains("expected a whole number"), "{parts}");
+        }
+        assert_eq!(read("memory=1.3GiB").unwrap().max_memory, 1_395_864_371);
+        assert_eq!(read("nesting=201").unwrap_err(), "nesting: at most 200 is possible, found `201`");
+        assert_eq!(read("nesting=200").unwrap().max_nesting, 200);
     }
 
     #[test]

@@ -214,6 +214,11 @@ impl<'n, 'd, 'a> Fields<'n, 'd, 'a> {
         let _: Option<()> = self.cx.complain(complaint);
     }
 
+    /// Says something of a thing that can be used.
+    pub(crate) fn warn(&mut self, complaint: Complaint) {
+        let _: Option<()> = self.cx.complain(complaint);
+    }
+
     /// Remembers that the thing is broken: somebody has complained.
     pub(crate) fn doubt(&mut self) {
         self.broken = true;

@@ -185,7 +185,6 @@ const OTHER_WORDS: &[(&str, &str)] = &[
     ("tonemap", "tone_mapping"),
     ("tonemapping", "tone_mapping"),
     ("tone_map", "tone_mapping"),
-    ("filmic", "agx"),
     ("neutral", "pbr_neutral"),
     ("khronos", "pbr_neutral"),
     ("aperture", "lens"),

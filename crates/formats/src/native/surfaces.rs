@@ -118,7 +118,15 @@ impl Record for Metal {
             (Some(name), None, None, None) => Conductor::Named(name),
             (None, Some(eta), Some(k), None) => Conductor::Index { eta, k },
             (None, None, None, Some(color)) => Conductor::Reflectance(color),
-            (None, None, None, None) => Metal::default().conductor,
+            (None, None, None, None) => {
+                // Where one of them is given but wrong, that has been told.
+                if given.is_empty() {
+                    let complaint =
+                        Complaint::warning(from.span_of("of"), "`metal` does not say which: it is aluminum");
+                    from.warn(complaint.help("say so with `of: aluminum`, or choose another, such as `of: gold`"));
+                }
+                Metal::default().conductor
+            }
             (None, Some(_), None, None) | (None, None, Some(_), None) => {
                 let there = from.span_of(given.first().copied().unwrap_or_default());
                 let complaint = Complaint::error(there, "`eta` and `k` go together");

@@ -23,6 +23,8 @@ pub enum MergeError {
         /// What both have.
         both: Part,
     },
+    /// The film with this index is not that of its outline, or was added before.
+    Another(usize),
     /// They are parts of so many pieces, or so far apart, that together they would be too large.
     TooScattered,
 }
@@ -35,6 +37,7 @@ impl std::fmt::Display for MergeError {
             MergeError::Unfinished(_) => write!(f, "it is not finished"),
             MergeError::OtherKind(_) => write!(f, "it has other layers than the films before it"),
             MergeError::Overlap { both, .. } => write!(f, "both have {both}"),
+            MergeError::Another(_) => write!(f, "it is not what it says, or changed while it was read"),
             MergeError::TooScattered => write!(f, "they are too many pieces, or too far apart"),
         }
     }
@@ -47,17 +50,45 @@ const MOST_EMPTY: u64 = 16;
 /// Pieces of which something is missing are not searched any further.
 const MOST_PIECES: usize = 4096;
 
-impl Film {
-    /// Puts films of the same scene together; their order does not matter. The film that has all of their samples is, to the
-    /// last bit, that of one run which took them all.
+/// What must be known of a film before others are put to it; no pixel of it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FilmOutline {
+    /// Part of the picture that it is.
+    pub region: Region,
+    /// What it is of; nothing if its integrator takes no samples.
+    pub parts: Vec<Part>,
+    /// True if light that met one surface at most is known apart.
+    pub direct: bool,
+    /// True if it is finished.
+    pub is_complete: bool,
+}
+
+impl FilmOutline {
+    /// False if no film can have it.
+    pub fn is_possible(&self) -> bool {
+        self.region.is_somewhere() && (self.parts.is_empty() || super::sums::parts_fit(&self.parts, self.region))
+    }
+}
+
+/// A film that others are put to, one after the other, so that not all of them need to be held at once.
+#[derive(Clone, Debug)]
+pub struct Merging {
+    outlines: Vec<FilmOutline>,
+    region: Region,
+    sums: Sums,
+    account: Account,
+}
+
+impl Merging {
+    /// A film for those with these outlines. All that may keep them apart is found here.
     ///
     /// # Errors
     ///
     /// One of them is no finished film of samples, or two have the same ones.
-    pub fn merge(films: &[Film]) -> Result<Film, MergeError> {
-        let sums: Vec<&Sums> = sums_of(films)?;
-        let all: Vec<Part> = sums.iter().flat_map(|sums| &sums.parts).copied().collect();
-        let of: Vec<usize> = sums.iter().enumerate().flat_map(|(film, sums)| vec![film; sums.parts.len()]).collect();
+    pub fn new(outlines: Vec<FilmOutline>) -> Result<Merging, MergeError> {
+        can_be_merged(&outlines)?;
+        let all: Vec<Part> = outlines.iter().flat_map(|film| &film.parts).copied().collect();
+        let of: Vec<usize> = outlines.iter().enumerate().flat_map(|(at, film)| vec![at; film.parts.len()]).collect();
         if all.len() > super::sums::MOST_PARTS {
             return Err(MergeError::TooScattered);
         }
@@ -68,54 +99,115 @@ impl Film {
             }
         }
         let around = Part::around(&all).ok_or(MergeError::Nothing)?;
-        let pixels: u64 = films.iter().map(|film| film.region.pixels()).sum();
+        let pixels = outlines.iter().map(|film| film.region.pixels()).fold(0, u64::saturating_add);
         if around.region.pixels() > pixels.saturating_mul(MOST_EMPTY) {
             return Err(MergeError::TooScattered);
         }
-        let mut merged = Film::new(around.region);
-        let mut into = Sums::new(around, !sums[0].direct.is_empty());
-        let mut account = Account::default();
-        for (film, sums) in films.iter().zip(&sums) {
-            account.add(&film.account);
-            for (pixel, (x, y)) in film.region.pixel_places().enumerate() {
-                into.add(around.region.index_of(x, y), &sums.of(pixel));
-            }
-        }
-        into.parts = joined(all, around);
-        merged.pixels = (0..into.taken.len()).map(|pixel| into.mean(pixel)).collect();
-        merged.samples = into.samples();
-        (merged.sums, merged.account) = (Some(into), account);
-        merged.finished.fill(true);
-        merged.finished_pixels = around.region.pixels();
-        Ok(merged)
+        let direct = outlines.first().is_some_and(|film| film.direct);
+        let sums = Sums { parts: joined(all, around), ..Sums::new(around, direct) };
+        Ok(Merging { outlines, region: around.region, sums, account: Account::default() })
     }
 
-    /// What a film of samples lacks of being one of all its samples of all its pixels, in pieces; the first of many.
-    pub fn gaps(&self) -> Vec<Part> {
-        let Some(sums) = &self.sums else { return Vec::new() };
-        let Some(around) = Part::around(&sums.parts) else { return Vec::new() };
-        let mut gaps = vec![Part { region: self.region, samples: around.samples }];
-        for part in &sums.parts {
-            gaps = gaps.iter().flat_map(|gap| gap.without(part)).take(MOST_PIECES).collect();
+    /// Puts a film to it: that with this index among the outlines.
+    ///
+    /// # Errors
+    ///
+    /// It is not the film of this outline.
+    pub fn add(&mut self, index: usize, film: &Film) -> Result<(), MergeError> {
+        let (Some(outline), Some(sums)) = (self.outlines.get_mut(index), &film.sums) else {
+            return Err(MergeError::Another(index));
+        };
+        if *outline != film.outline() {
+            return Err(MergeError::Another(index));
         }
-        join(&mut gaps);
-        gaps
+        // So that it is not put there twice.
+        outline.parts.clear();
+        self.account.add(&film.account);
+        for (pixel, (x, y)) in film.region.pixel_places().enumerate() {
+            self.sums.add(self.region.index_of(x, y), &sums.of(pixel));
+        }
+        Ok(())
+    }
+
+    /// The film of all that were added.
+    pub fn finish(self) -> Film {
+        let Merging { region, sums, account, outlines: _ } = self;
+        let mut merged = Film::new(region);
+        merged.pixels = (0..sums.taken.len()).map(|pixel| sums.mean(pixel)).collect();
+        merged.samples = sums.samples();
+        (merged.sums, merged.account) = (Some(sums), account);
+        merged.finished.fill(true);
+        merged.finished_pixels = region.pixels();
+        merged
     }
 }
 
-fn sums_of(films: &[Film]) -> Result<Vec<&Sums>, MergeError> {
-    let mut all: Vec<&Sums> = Vec::with_capacity(films.len());
+impl Film {
+    /// Puts films of the same scene together; their order does not matter. The film that has all of their samples is, to the
+    /// last bit, that of one run which took them all.
+    ///
+    /// # Errors
+    ///
+    /// One of them is no finished film of samples, or two have the same ones.
+    pub fn merge(films: &[Film]) -> Result<Film, MergeError> {
+        let mut merging = Merging::new(films.iter().map(Film::outline).collect())?;
+        for (index, film) in films.iter().enumerate() {
+            merging.add(index, film)?;
+        }
+        Ok(merging.finish())
+    }
+
+    /// What others must know of it to be put to it.
+    pub fn outline(&self) -> FilmOutline {
+        let (parts, direct) =
+            self.sums.as_ref().map_or((Vec::new(), false), |sums| (sums.parts.clone(), !sums.direct.is_empty()));
+        FilmOutline { region: self.region, parts, direct, is_complete: self.is_complete() }
+    }
+
+    /// The film as it is, if nothing more is to be added: what is not finished stays black, or has fewer samples.
+    #[must_use]
+    pub fn as_it_is(mut self) -> Film {
+        self.finished.fill(true);
+        self.finished_pixels = self.region.pixels();
+        if let Some(sums) = &mut self.sums {
+            sums.calm = Vec::new();
+        }
+        self
+    }
+
+    /// What a film of samples lacks of being one of all its samples of all its pixels, in pieces; and true if there may be
+    /// more of them, too many to be searched.
+    pub fn gaps(&self) -> (Vec<Part>, bool) {
+        let Some(sums) = &self.sums else { return (Vec::new(), false) };
+        let Some(around) = Part::around(&sums.parts) else { return (Vec::new(), false) };
+        let mut gaps = vec![Part { region: self.region, samples: around.samples }];
+        let mut is_cut = false;
+        for part in &sums.parts {
+            gaps = gaps.iter().flat_map(|gap| gap.without(part)).collect();
+            is_cut |= gaps.len() > MOST_PIECES;
+            gaps.truncate(MOST_PIECES);
+        }
+        join(&mut gaps);
+        (gaps, is_cut)
+    }
+}
+
+fn can_be_merged(films: &[FilmOutline]) -> Result<(), MergeError> {
     for (index, film) in films.iter().enumerate() {
-        let sums = film.sums.as_ref().ok_or(MergeError::NoSamples(index))?;
-        if !film.is_complete() {
+        if film.parts.is_empty() {
+            return Err(MergeError::NoSamples(index));
+        }
+        if !film.is_possible() {
+            return Err(MergeError::Another(index));
+        }
+        if !film.is_complete {
             return Err(MergeError::Unfinished(index));
         }
-        if all.first().is_some_and(|first| first.direct.is_empty() != sums.direct.is_empty()) {
+        if film.direct != films[0].direct {
             return Err(MergeError::OtherKind(index));
         }
-        all.push(sums);
     }
-    if all.is_empty() { Err(MergeError::Nothing) } else { Ok(all) }
+    if films.is_empty() { Err(MergeError::Nothing) } else { Ok(()) }
 }
 
 /// Parts in as few pieces as is easy: one, if nothing is missing.
@@ -128,15 +220,32 @@ fn joined(mut parts: Vec<Part>, around: Part) -> Vec<Part> {
     parts
 }
 
-/// Joins what lies side by side or follows each other, and sorts.
+/// Joins what lies side by side or follows each other, along one axis after the other until nothing more can be joined, and
+/// sorts. The order of the pieces does not matter.
 fn join(parts: &mut Vec<Part>) {
-    while let Some((a, b, both)) =
-        (0..parts.len()).find_map(|a| (a + 1..parts.len()).find_map(|b| Some((a, b, parts[a].joined_with(&parts[b])?))))
-    {
-        parts.swap_remove(b);
-        parts[a] = both;
+    loop {
+        let before = parts.len();
+        join_along(parts, |part| (part.samples, part.region.y, part.region.height, part.region.x));
+        join_along(parts, |part| (part.samples, part.region.x, part.region.width, part.region.y));
+        join_along(parts, |part| (part.region.x, part.region.y, part.region.width, part.region.height, part.samples));
+        if parts.len() == before {
+            break;
+        }
     }
     parts.sort_by_key(Part::order);
+}
+
+/// Joins pieces that are next to each other when they are sorted so.
+fn join_along<K: Ord>(parts: &mut Vec<Part>, key: impl Fn(&Part) -> K) {
+    parts.sort_by_key(key);
+    let mut joined: Vec<Part> = Vec::with_capacity(parts.len());
+    for part in parts.drain(..) {
+        match joined.last_mut().and_then(|last| Some((last.joined_with(&part)?, last))) {
+            Some((both, last)) => *last = both,
+            None => joined.push(part),
+        }
+    }
+    *parts = joined;
 }
 
 impl Part {
@@ -230,5 +339,39 @@ mod tests {
         assert_eq!(pieces, [part(0, 0, 8, 8, 0..16)]);
         let apart = vec![part(0, 0, 4, 4, 0..8), part(6, 0, 4, 4, 0..8)];
         assert_eq!(joined(apart.clone(), Part::around(&apart).unwrap()), apart);
+    }
+
+    /// As many pieces as there may be are joined at once, and in any order to the same ones: it took n³ steps.
+    #[test]
+    fn thousands_of_pieces_are_joined_quickly() {
+        let cells = |gap: u32| {
+            let at = (0..64).flat_map(move |y| (0..32).map(move |x| (x, y)));
+            let cells = at.flat_map(|(x, y)| [part(x, y, 1, 1, 0..8), part(x, y, 1, 1, 8..9)]);
+            cells.filter(|cell| cell.region.x != gap).collect::<Vec<Part>>()
+        };
+        let mut pieces = cells(99);
+        join(&mut pieces);
+        assert_eq!(pieces, [part(0, 0, 32, 64, 0..9)]);
+        let (mut pieces, mut reversed) = (cells(5), cells(5));
+        reversed.reverse();
+        join(&mut pieces);
+        join(&mut reversed);
+        assert_eq!(pieces, [part(0, 0, 5, 64, 0..9), part(6, 0, 26, 64, 0..9)]);
+        assert_eq!(reversed, pieces);
+    }
+
+    #[test]
+    fn a_film_that_is_not_that_of_its_outline_is_refused() {
+        let samples = SampleRange { start: 0, end: 2 };
+        let film = |x| {
+            let mut film = Film::of_samples(Region { x, y: 0, width: 4, height: 4 }, samples, false);
+            film.finish_samples();
+            film
+        };
+        let mut merging = Merging::new(vec![film(0).outline(), film(4).outline()]).unwrap();
+        assert_eq!(merging.add(0, &film(4)), Err(MergeError::Another(0)));
+        assert_eq!(merging.add(1, &film(4)), Ok(()));
+        assert_eq!(merging.add(1, &film(4)), Err(MergeError::Another(1)), "twice");
+        assert_eq!(merging.add(2, &film(4)), Err(MergeError::Another(2)));
     }
 }

@@ -68,6 +68,12 @@ impl Region {
         })
     }
 
+    /// The number of these cells.
+    pub(crate) fn cell_count(self, edge: u32) -> u64 {
+        let across = |from: u32, length: u32| u64::from((from + length.max(1) - 1) / edge + 1 - from / edge);
+        across(self.x, self.width) * across(self.y, self.height)
+    }
+
     /// True if it is not empty, and its pixels can be counted.
     pub(crate) fn is_somewhere(self) -> bool {
         self.x.checked_add(self.width).is_some() && self.y.checked_add(self.height).is_some() && self.pixels() > 0
@@ -106,6 +112,7 @@ mod tests {
         for edge in [8, 32, 100] {
             cover_once(region, region.cells(edge));
             assert!(region.cells(edge).all(|cell| cell.x / edge == (cell.x + cell.width - 1) / edge));
+            assert_eq!(region.cells(edge).count() as u64, region.cell_count(edge));
         }
         let last = Region { x: u32::MAX - 40, y: u32::MAX - 3, width: 40, height: 3 };
         assert_eq!(last.cells(32).map(|cell| cell.pixels()).sum::<u64>(), last.pixels());

@@ -3,8 +3,14 @@
 //! A color is added as a whole number of steps of 2⁻⁶⁰, which 128 bits hold for 2³² samples of up to 2³⁴. So any samples of
 //! any pixels, taken by any threads, in one run or in many, add up to the same bits. Sums in floating point would not,
 //! whatever their precision; and sums in trees of a fixed shape would, but only for the ranges that the tree has.
+//!
+//! Light that is too bright for these numbers is never taken for light that is known: a sample above 2³⁴ counts as 2³⁴, and
+//! the variance of its pixel as infinite; and so does that of a pixel whose squares together are 2⁷⁷ or more, which takes
+//! half a million samples of 2²⁹. Such sums stay what they are, whatever is added to them, so that order does not matter here
+//! either.
 
 use super::{Account, Region};
+use crate::passes::{CELL, PASSES};
 use durer_math::Rgb;
 
 /// A range of the samples of each pixel.
@@ -39,8 +45,23 @@ pub struct Sums {
     pub colors: Vec<[i128; 3]>,
     /// Of that part of the colors that is light which met one surface at most, or nothing if that is not known apart.
     pub direct: Vec<[i128; 3]>,
-    /// Of the squares of their luminances, in steps of 2⁻⁵⁰: what chance does is estimated by them.
+    /// Of the squares of their luminances, in steps of 2⁻⁵⁰: what chance does is estimated by them. The greatest number there
+    /// is stands for all that are greater, and for samples whose color is not known.
     pub squares: Vec<i128>,
+    /// Of a film that aims at noise and is not finished: what is known of each cell of 8 × 8 pixels on a grid that begins at
+    /// the picture's corner, or of its part in the film, row by row. Nothing for others, and before the first look.
+    pub calm: Vec<Calm>,
+}
+
+/// What is known of the noise of a cell of 8 × 8 pixels, while a film aims at noise.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Calm {
+    /// The samples that each of its pixels had when it was last looked at.
+    pub samples: u32,
+    /// In how many passes running there was little enough; 2 stands for any more.
+    pub passes: u8,
+    /// The samples that each pixel had when that was 2 for the first time; 0 if it never was.
+    pub first: u32,
 }
 
 /// The sums of one pixel, or what some samples add to them.
@@ -68,10 +89,21 @@ impl SampleRange {
     }
 }
 
-/// A number in steps: so many are 1. What is more than 2⁹⁴ steps counts as much.
-fn fixed(number: f64, one: f64) -> i128 {
-    const MOST: f64 = (1_u128 << 94) as f64;
-    (number * one).clamp(-MOST, MOST) as i128
+/// The greatest component of a sample that is added as it is.
+const BRIGHTEST: f64 = (1_u64 << 34) as f64;
+
+/// A component in steps. What is more than [`BRIGHTEST`] counts as much.
+fn fixed(component: f64) -> i128 {
+    (component.clamp(-BRIGHTEST, BRIGHTEST) * COLOR) as i128
+}
+
+/// The square of a luminance in steps; the greatest number there is if that is too much for it.
+fn square(color: Rgb) -> i128 {
+    if color.to_array().into_iter().any(|component| f64::from(component).abs() > BRIGHTEST) {
+        return i128::MAX;
+    }
+    let luminance = f64::from(color.luminance());
+    (luminance * luminance * SQUARE) as i128
 }
 
 /// The steps of a color in 1. Numbers of single precision from 2⁻³⁶ to 2³⁴ are exact.
@@ -92,11 +124,10 @@ impl PixelSums {
         let sign = if is_negative { -1.0 } else { 1.0 };
         for (sums, color) in [(&mut self.color, color), (&mut self.direct, direct)] {
             for (sum, component) in sums.iter_mut().zip(color.to_array()) {
-                *sum += fixed(sign * f64::from(component), COLOR);
+                *sum += fixed(sign * f64::from(component));
             }
         }
-        let luminance = f64::from(color.luminance());
-        self.square += fixed(luminance * luminance, SQUARE);
+        self.square = self.square.saturating_add(square(color));
         self.counts[usize::from(is_negative)] += 1;
         Ok(())
     }
@@ -117,18 +148,25 @@ impl Sums {
             colors: vec![[0; 3]; length],
             direct: if direct { vec![[0; 3]; length] } else { Vec::new() },
             squares: vec![0; length],
+            calm: Vec::new(),
         }
     }
 
     /// True if they are those of a film of this region, as far as can be told.
     pub(super) fn fit(&self, region: Region, is_finished: bool) -> bool {
-        let Sums { parts, taken, counts, colors, direct, squares } = self;
+        let Sums { parts, taken, counts, colors, direct, squares, calm } = self;
         let length = region.pixels();
         let all_there = [taken.len(), counts.len(), colors.len(), squares.len()].iter().all(|&l| l as u64 == length);
         let counted =
             taken.iter().zip(counts).all(|(taken, [a, b])| a.checked_add(*b).is_some_and(|sum| sum <= *taken));
         let is_begun = |part: &Part| part.region == region && taken.iter().all(|&taken| taken <= part.samples.count());
+        let judged = calm.is_empty()
+            || !is_finished
+                && calm.len() as u64 == region.cell_count(CELL)
+                && calm.iter().all(|calm| calm.passes <= PASSES);
         all_there
+            && judged
+            && squares.iter().all(|&square| square >= 0)
             && (direct.is_empty() || direct.len() as u64 == length)
             && counted
             && parts_fit(parts, region)
@@ -141,6 +179,7 @@ impl Sums {
         if let ([part], true) = (&mut self.parts[..], least == most && least > 0) {
             part.samples.end = part.samples.start.saturating_add(least);
         }
+        self.calm = Vec::new();
     }
 
     /// All samples that were taken.
@@ -165,7 +204,7 @@ impl Sums {
         for (sum, more) in self.colors[pixel].iter_mut().zip(more.color).chain(direct) {
             *sum = sum.wrapping_add(more);
         }
-        self.squares[pixel] = self.squares[pixel].wrapping_add(more.square);
+        self.squares[pixel] = self.squares[pixel].saturating_add(more.square);
     }
 
     /// Those of a pixel.
@@ -194,12 +233,12 @@ impl Sums {
         Rgb::new(r as f32, g as f32, b as f32)
     }
 
-    /// The variance of the mean of a pixel's luminance, by that of its samples; infinite if there are less than two. The
-    /// samples work together, so it is more than what is really there.
+    /// The variance of the mean of a pixel's luminance, by that of its samples; infinite if there are less than two, or if they
+    /// are too bright to tell. The samples work together, so it is more than what is really there.
     pub fn variance(&self, pixel: usize) -> f64 {
         let [positive, negative] = self.counts[pixel].map(f64::from);
         let count = positive + negative;
-        if count < 2.0 {
+        if count < 2.0 || self.squares[pixel] == i128::MAX {
             return f64::INFINITY;
         }
         let luminance = f64::from(self.mean(pixel).luminance());
@@ -221,7 +260,7 @@ impl Sums {
 pub(super) const MOST_PARTS: usize = 4096;
 
 /// True if parts can be those of a film of this region: sorted, and none overlaps another.
-fn parts_fit(parts: &[Part], region: Region) -> bool {
+pub(super) fn parts_fit(parts: &[Part], region: Region) -> bool {
     let inside = |part: &Part| part.region.is_somewhere() && part.region.intersection(region) == Some(part.region);
     let is_fine = |part: &Part| inside(part) && part.samples.count() > 0;
     let alone = |(at, part): (usize, &Part)| parts[at + 1..].iter().all(|other| !part.overlaps(other));
@@ -303,6 +342,38 @@ mod tests {
         let sums = sums_of(&with_bad);
         assert_eq!((sums.mean(0), sums.taken[0]), (color, 42));
         assert_eq!(sums_of(&[]).mean(0), Rgb::BLACK);
+    }
+
+    /// Samples of 2²³ are beyond what squares could hold that stopped at 2⁴⁴; their variance is that of all others, scaled.
+    #[test]
+    fn bright_light_has_the_variance_of_dark_light_scaled() {
+        let of = |scale: f32| {
+            let samples: Vec<(Rgb, bool)> =
+                (0..64_u32).map(|n| (Rgb::gray(if n % 16 == 5 { scale } else { 0.0 }), false)).collect();
+            sums_of(&samples).variance(0) / f64::from(scale) / f64::from(scale)
+        };
+        // 4 of 64: p (1 - p) / 63.
+        let expected = 0.0625 * 0.9375 / 63.0;
+        for power in [0, 10, 21, 23, 28, 33] {
+            let found = of(2.0_f32.powi(power));
+            assert!((found / expected - 1.0).abs() < 1e-6, "2^{power}: {found}");
+        }
+        assert!(of(3e10).is_infinite());
+    }
+
+    /// What is too bright to be known stays unknown, in any order.
+    #[test]
+    fn light_that_is_too_bright_is_not_taken_for_known() {
+        let dark = (Rgb::gray(0.5), false);
+        for bright in [Rgb::gray(1e11), Rgb::new(f32::MAX, 0.0, 0.0)] {
+            let first = sums_of(&[(bright, false), dark, dark]);
+            assert_eq!(first, sums_of(&[dark, dark, (bright, false)]));
+            assert!(first.variance(0).is_infinite());
+        }
+        // Each alone can be told, and all together cannot.
+        let many = sums_of(&vec![(Rgb::gray(1.7e10), false); 600]);
+        assert!(sums_of(&[(Rgb::gray(1.7e10), false); 300]).variance(0).is_finite());
+        assert!(many.variance(0).is_infinite());
     }
 
     #[test]

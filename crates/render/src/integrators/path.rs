@@ -122,11 +122,12 @@ impl<O: Observer> Path<'_, O> {
         let met = meet(scene, &self.state.ray, known, self.observer);
         self.along(met.length);
         let Some(hit) = met.hit else {
-            let seen = scene.background.look(met.ray.direction);
-            if !seen.light.is_black() {
-                let density = |receiver: &Receiver| scene.emitters.pdf_of_background(scene, receiver, &seen);
+            let look = scene.background.look(met.ray.direction);
+            let seen = scene.background.light(&look);
+            if !seen.is_black() {
+                let density = |receiver: &Receiver| scene.emitters.pdf_of_background(scene, receiver, &look);
                 let part = self.part_of_found(density);
-                self.add(Source::Background, seen.light * part);
+                self.add(Source::Background, seen * part);
             }
             return false;
         };

@@ -42,26 +42,29 @@ pub(crate) fn same_samples_again<I: Integrator>(
     Ok(Some(again.pixels().to_vec()))
 }
 
-/// For each part of a film the samples that it has of its pixels. A film of one part has its first ones, as many as were
-/// taken; one of several has all of each.
-fn passes_of(film: &Film, parts: &[Part], taken: &[u32]) -> Option<Vec<(Part, Pass)>> {
-    let (region, nothing) = (film.region(), vec![0; taken.len()]);
-    let pass = |to: Vec<u32>| Pass { region, from: nothing.clone(), to, expected: 0 };
-    if let &[part] = parts {
-        return Some(vec![(part, pass(taken.to_vec()))]);
-    }
-    let mut counted = nothing.clone();
-    let mut passes = Vec::new();
-    for &part in parts {
-        let mut to = nothing.clone();
-        for (x, y) in part.region.pixel_places() {
-            let pixel = region.index_of(x, y);
-            to[pixel] = part.samples.count();
-            counted[pixel] += part.samples.count();
+/// For each part of a film the samples that it has of its pixels. Where a pixel is in one part only, it has the first ones of
+/// that, as many as were taken: a goal for noise may have ended them. Where it is in several, it must have all of each, or it
+/// cannot be told which it has.
+fn passes_of<'a>(film: &Film, parts: &'a [Part], taken: &'a [u32]) -> Option<impl Iterator<Item = (Part, Pass)> + 'a> {
+    let region = film.region();
+    let pixels = move |part: &Part| part.region.pixel_places().map(move |(x, y)| region.index_of(x, y));
+    let (mut number, mut most) = (vec![0_u32; taken.len()], vec![0_u32; taken.len()]);
+    for part in parts {
+        for pixel in pixels(part) {
+            number[pixel] += 1;
+            most[pixel] = most[pixel].saturating_add(part.samples.count());
         }
-        passes.push((part, pass(to)));
     }
-    (counted == taken).then_some(passes)
+    let can_be_told =
+        |pixel: usize| if number[pixel] > 1 { taken[pixel] == most[pixel] } else { taken[pixel] <= most[pixel] };
+    if !(0..taken.len()).all(can_be_told) {
+        return None;
+    }
+    // One after the other, since there may be many.
+    Some(parts.iter().map(move |part| {
+        let to: Vec<u32> = pixels(part).map(|pixel| taken[pixel].min(part.samples.count())).collect();
+        (*part, Pass { region: part.region, from: vec![0; to.len()], to, expected: 0 })
+    }))
 }
 
 #[cfg(test)]
@@ -100,5 +103,29 @@ mod tests {
             let again = same_samples_again((&scene(), &tracer), &film, &RenderOptions::default(), &()).unwrap();
             assert_eq!(again.unwrap(), film.pixels());
         }
+    }
+
+    /// Films that noise ended, of parts of the picture that do not make a rectangle, are known still.
+    #[test]
+    fn merged_films_know_the_samples_of_each_part() {
+        let tracer = PathTracer { max_depth: 16, clamp: None };
+        let mut scene = scene();
+        (scene.settings.noise, scene.settings.samples) = (Some(0.03), Some(200));
+        let of = |x, y, width, height| {
+            let region = Some(crate::film::Region { x, y, width, height });
+            render(&scene, &RenderOptions { region, ..RenderOptions::default() }, &()).unwrap()
+        };
+        let merged = Film::merge(&[of(0, 0, 9, 12), of(9, 3, 11, 5)]).unwrap();
+        let taken = &merged.sums().unwrap().taken;
+        assert!(taken.iter().any(|&taken| taken > 64) && taken.contains(&0), "{taken:?}");
+        let again = same_samples_again((&scene, &tracer), &merged, &RenderOptions::default(), &()).unwrap();
+        assert_eq!(again.unwrap(), merged.pixels());
+        let some = |start, end| {
+            let samples = Some(SampleRange { start, end });
+            render(&scene, &RenderOptions { samples, ..RenderOptions::default() }, &()).unwrap()
+        };
+        let merged = Film::merge(&[some(0, 2), some(5, 9)]).unwrap();
+        let again = same_samples_again((&scene, &tracer), &merged, &RenderOptions::default(), &()).unwrap();
+        assert_eq!(again.unwrap(), merged.pixels());
     }
 }

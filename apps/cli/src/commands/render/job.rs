@@ -13,7 +13,7 @@ use crate::{output, provenance, target};
 use durer::imaging::{EncodeOptions, Layers};
 use durer::{
     CheckedScene, Checkpoint, Film, FilmLayer, Origin, PictureFile, Progress, Region, RenderError, RenderOptions,
-    SceneHash, SeenFirst, Sources, WriteError, film_layers, read_checkpoint, seen_first, temporary_beside,
+    SceneHash, SceneItem, SeenFirst, Sources, WriteError, film_layers, read_checkpoint, seen_first, temporary_beside,
 };
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -27,6 +27,17 @@ pub(crate) struct Job<'a> {
     pub(crate) manner: &'a Manner,
     /// What the checkpoints are to say of how it was begun; `None` if that cannot be said in UTF-8.
     pub(crate) origin: Option<Origin>,
+    /// Why it is carried out, for messages.
+    pub(crate) purpose: Purpose<'a>,
+}
+
+/// What a render is for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Purpose<'a> {
+    /// To render, or to go on with what was begun.
+    Render,
+    /// To make a picture of what is known, after this film was named first.
+    Merge(&'a Path),
 }
 
 /// What there is besides the film when all rays are traced.
@@ -65,7 +76,7 @@ impl Job<'_> {
         if arguments.saving.checkpoint.as_ref().is_some_and(|checkpoint| target::same_place(checkpoint, &path)) {
             return Err(Failure::usage("--checkpoint: the checkpoint cannot be the same file as the picture"));
         }
-        let format = if target::is_film(&path) { None } else { Some(target::format_of(&path)?) };
+        let format = target::format_or_film(&path)?;
         let mut options = match format {
             Some(format) => arguments.file.encode_options(format)?,
             None if arguments.layers.alpha => return Err(Failure::usage("--alpha: films have none; pictures have")),
@@ -98,29 +109,32 @@ impl Job<'_> {
         arguments.scene.admit(&scene)?;
         let saver = self.saver(&scene, &sources)?;
         let is_new = resumed.is_none();
+        let before = resumed.as_ref().map_or(0.0, |checkpoint| checkpoint.seconds);
         let film = match (resumed, &saver) {
-            (Some(checkpoint), Some(saver)) => Some(fitting(checkpoint, saver, region)?),
+            (Some(checkpoint), Some(saver)) => Some(fitting(checkpoint, saver, region, self.purpose)?),
             (None, Some(saver)) => self.look_for_checkpoint(saver, region).map(|()| None)?,
             (_, None) => None,
         };
         interrupt.watch();
+        let wanted = layers.as_deref().unwrap_or_default();
+        let direct = wanted.iter().any(|layer| layer.is_of_paths());
+        let most_bytes_of_checkpoint = checkpoint_bytes_a_pixel(&scene, direct) * region.pixels();
         let mut file = PictureFile::create(&path)?;
         interrupt.removes(file.temporary());
         file.reserve(match format {
             Some(_) => most_bytes(&options, (layers.as_deref(), arguments.layers.alpha), (region.width, region.height)),
-            None => checkpoint_bytes_a_pixel(&scene) * region.pixels(),
+            None => most_bytes_of_checkpoint,
         })?;
         if let Some(saver) = &saver {
             interrupt.removes(&temporary_beside(saver.path()));
             if is_new && saving_from_the_start(arguments) {
                 // Only a try: what it takes is free again at once.
-                PictureFile::create(saver.path())?.reserve(checkpoint_bytes_a_pixel(&scene) * region.pixels())?;
+                PictureFile::create(saver.path())?.reserve(most_bytes_of_checkpoint)?;
             }
         }
         let rays_before = film.as_ref().map_or(0, |film| film.rays().total());
-        let wanted = layers.as_deref().unwrap_or_default();
         let Traced { mut film, seen, alpha, seconds: [build, render] } =
-            self.trace(&scene, (film, region, wanted), &interrupt, saver.as_ref(), show)?;
+            self.trace(&scene, (film.map(|film| (film, before)), region, wanted), &interrupt, saver.as_ref(), show)?;
         let report =
             Report::new(arguments.scene.path.clone(), path, format, &film, picture.exposure).after(rays_before);
         let report = report.with_seconds(Seconds { load, build, render, write: 0.0 }).stopped_by(interrupt.reason());
@@ -194,7 +208,7 @@ impl Job<'_> {
     fn trace(
         &self,
         scene: &CheckedScene,
-        (film, region, layers): (Option<Film>, Region, &[FilmLayer]),
+        (begun, region, layers): (Option<(Film, f64)>, Region, &[FilmLayer]),
         interrupt: &Interrupt,
         saver: Option<&Saver<'_>>,
         show: Show,
@@ -206,9 +220,13 @@ impl Job<'_> {
             if self.arguments.layers.alpha {
                 compiled.leave_out_background();
             }
+            let (film, before) = begun.map_or((None, 0.0), |(film, before)| (Some(film), before));
             let already = film.as_ref().map_or(0, Film::done);
             let bar = Bar::new(interrupt.stop_flag(), already, show);
-            let watch = Watch { bar, saver, total: AtomicU64::new(region.pixels()) };
+            let watch = Watch { bar, saver, before, total: AtomicU64::new(region.pixels()) };
+            if let Some(saver) = saver {
+                saver.begins(before);
+            }
             let options = RenderOptions {
                 threads: None,
                 region: Some(region),
@@ -334,6 +352,8 @@ impl Progress for Stop<'_> {
 struct Watch<'a> {
     bar: Bar<'a>,
     saver: Option<&'a Saver<'a>>,
+    /// Seconds that earlier runs took.
+    before: f64,
     /// How much there is to do, as last heard.
     total: AtomicU64,
 }
@@ -356,7 +376,7 @@ impl Progress for Watch<'_> {
     }
 
     fn elapsed(&self) -> Option<f64> {
-        self.bar.elapsed()
+        self.bar.elapsed().map(|seconds| self.before + seconds)
     }
 }
 
@@ -374,15 +394,17 @@ fn share_done(film: &Film) -> f64 {
 }
 
 /// The film of a checkpoint, if it is one of this scene.
-fn fitting(checkpoint: Checkpoint, saver: &Saver<'_>, region: Region) -> Result<Film, Failure> {
-    let path = saver.path().display();
+fn fitting(checkpoint: Checkpoint, saver: &Saver<'_>, region: Region, purpose: Purpose<'_>) -> Result<Film, Failure> {
+    let cannot = match purpose {
+        Purpose::Render => format!("cannot go on with {}", saver.path().display()),
+        Purpose::Merge(film) => format!("cannot make a picture of {}", film.display()),
+    };
     let changed = differences(&checkpoint.scene, saver.hash());
     if !changed.is_empty() {
-        let message = format!("cannot go on with {path}: since it was made, {changed} changed");
-        return Err(Failure::Message(Exit::Scene, message));
+        return Err(Failure::Message(Exit::Scene, format!("{cannot}: since it was made, {changed} changed")));
     }
     if checkpoint.film.region() != region {
-        return Err(Failure::file(format!("cannot go on with {path}: it is not of the part that it says")));
+        return Err(Failure::file(format!("{cannot}: it is not of the part that it says")));
     }
     if !saver.is_off() {
         saver.found(&checkpoint.film);
@@ -390,19 +412,27 @@ fn fitting(checkpoint: Checkpoint, saver: &Saver<'_>, region: Region) -> Result<
     Ok(checkpoint.film)
 }
 
-/// Of a pixel in a checkpoint.
-fn checkpoint_bytes_a_pixel(scene: &CheckedScene) -> u64 {
-    if scene.scene().render.integrator.takes_samples() { 77 } else { 14 }
+/// Of a pixel in a checkpoint, the most; light that met one surface at most may be known apart.
+fn checkpoint_bytes_a_pixel(scene: &CheckedScene, direct: bool) -> u64 {
+    match (scene.scene().render.integrator.takes_samples(), direct) {
+        (false, _) => 14,
+        (true, false) => 77,
+        (true, true) => 125,
+    }
 }
 
 fn saving_from_the_start(arguments: &Arguments) -> bool {
     arguments.saving.times().0 == When::Always
 }
 
-fn differences(before: &SceneHash, now: &SceneHash) -> String {
-    let names = before.differences(now);
-    let names = names.iter().map(|name| if name.is_empty() { "the scene".to_owned() } else { format!("`{name}`") });
-    names.collect::<Vec<_>>().join(", ")
+/// What is not the same in two scenes, in words.
+pub(crate) fn differences(before: &SceneHash, now: &SceneHash) -> String {
+    let items = before.differences(now).into_iter().map(|item| match item {
+        SceneItem::Scene => "the scene".to_owned(),
+        SceneItem::Setting(name) => format!("the setting `{name}`"),
+        SceneItem::File(name) => format!("`{name}`"),
+    });
+    items.collect::<Vec<_>>().join(", ")
 }
 
 fn how_to_go_on(path: &Path) -> String {

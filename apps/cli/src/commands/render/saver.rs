@@ -34,6 +34,8 @@ pub(super) struct Saver<'a> {
     scene: (&'a CheckedScene, &'a Sources),
     hash: OnceLock<SceneHash>,
     every: Duration,
+    /// Seconds that the film took in earlier runs, and when this one began to trace.
+    clock: OnceLock<(f64, Instant)>,
     turn: Arc<Mutex<Turn>>,
     writer: Mutex<Option<Writer>>,
 }
@@ -67,8 +69,9 @@ impl<'a> Saver<'a> {
     ) -> Saver<'a> {
         let next = Instant::now() + every;
         let turn = Turn { when, is_busy: false, is_ours: false, has_failed: false, at_least: 0, next };
-        let (hash, turn, writer) = (OnceLock::new(), Arc::new(Mutex::new(turn)), Mutex::new(None));
-        Saver { path, origin, scene, hash, every, turn, writer }
+        let (hash, clock) = (OnceLock::new(), OnceLock::new());
+        let (turn, writer) = (Arc::new(Mutex::new(turn)), Mutex::new(None));
+        Saver { path, origin, scene, hash, every, clock, turn, writer }
     }
 
     /// The file at the path holds this film, of this very render: it is to go when the picture is written, and is not
@@ -77,6 +80,11 @@ impl<'a> Saver<'a> {
         let mut turn = lock(&self.turn);
         turn.is_ours = true;
         turn.at_least = film.done();
+    }
+
+    /// Rays are traced from now on, for a film that took so many seconds before.
+    pub(super) fn begins(&self, before: f64) {
+        let _ = self.clock.set((before, Instant::now()));
     }
 
     pub(super) fn path(&self) -> &Path {
@@ -136,7 +144,8 @@ impl<'a> Saver<'a> {
 
     /// The bytes of a file with this film.
     pub(super) fn bytes(&self, film: &Film) -> Vec<u8> {
-        encode_checkpoint(&self.origin, self.hash(), film)
+        let seconds = self.clock.get().map_or(0.0, |(before, begun)| before + begun.elapsed().as_secs_f64());
+        encode_checkpoint(&self.origin, self.hash(), film, seconds)
     }
 
     /// Waits until nothing is being written any more.
