@@ -184,12 +184,6 @@ impl<'a> Shading<'a> {
         Ray { origin: self.origin_back(), direction: self.kept_on(Side::Front, self.horizon(), direction) }
     }
 
-    /// True if who goes past the surface, of which so much is there, goes to the other side of its boundary: no medium begins
-    /// where nothing of a surface is, but one that the ray is in ends; and what is but partly there counts as there.
-    pub(crate) fn crosses_past(&self, opacity: Rgb) -> bool {
-        self.bounds_medium && !(self.from_outside && opacity.is_black())
-    }
-
     /// True if a direction leads to the side of the surface that the ray did not come from.
     pub(crate) fn is_on_far_side(&self, direction: DVec3) -> bool {
         direction.dot(self.horizon()) < 0.0

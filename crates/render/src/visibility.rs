@@ -81,27 +81,70 @@ fn passed(scene: &CompiledScene, ray: &Ray, hit: &Hit, surface: &Surface, around
     straight * opacity + (Rgb::WHITE - opacity)
 }
 
-/// What media leave of light: goes from surface to surface, for the innermost medium decides. No medium is entered through
-/// a hole; what is but partly there counts as there.
-fn through_media(scene: &CompiledScene, media: &Media, mut ray: Ray, mut reach: f64) -> Rgb {
-    let mut left = Rgb::WHITE;
-    let mut media = media.clone();
-    for _ in 0..MOST_SURFACES {
-        let Some(hit) = scene.world.closest_hit(&ray, reach, CLEAR, None) else { break };
-        left *= media.transmittance(scene, hit.crossing.t);
-        let surface = scene.world.surface(&ray, &hit);
-        let side = ray.direction.dot(surface.normal);
-        let entering = side < 0.0;
-        if scene.objects[hit.primitive as usize].looks.is_medium && !(entering && is_hole(scene, &hit, &surface)) {
-            let _ = media.cross(hit.primitive, entering);
-        }
-        reach -= hit.crossing.t;
-        ray.origin = surface.point + surface.normal * surface.offset.copysign(side);
-    }
-    left * media.transmittance(scene, reach)
+/// What media leave of light: goes from surface to surface, for the innermost medium decides. Light that goes past a surface which
+/// is but partly there enters nothing, and what goes through it does: both are followed.
+fn through_media(scene: &CompiledScene, media: &Media, ray: Ray, reach: f64) -> Rgb {
+    Way { media: media.clone(), ray, reach, surfaces: MOST_SURFACES, forks: MOST_FORKS }.left(scene)
 }
 
-/// True if nothing of the surface is there.
-fn is_hole(scene: &CompiledScene, hit: &Hit, surface: &Surface) -> bool {
-    scene.objects[hit.primitive as usize].looks.has_holes && opacity_at(scene, hit, surface).is_black()
+/// Light is divided no more often than this on one way, so that time has a bound; from there on all of it enters.
+const MOST_FORKS: u32 = 6;
+
+/// The rest of a way of light through media.
+#[derive(Clone)]
+struct Way {
+    media: Media,
+    ray: Ray,
+    reach: f64,
+    /// No more than so many surfaces are looked at.
+    surfaces: u32,
+    forks: u32,
+}
+
+impl Way {
+    /// What is left at its end of light at its beginning, as if all of it passed all surfaces.
+    fn left(mut self, scene: &CompiledScene) -> Rgb {
+        let mut left = Rgb::WHITE;
+        while self.surfaces > 0 {
+            self.surfaces -= 1;
+            let Some(hit) = scene.world.closest_hit(&self.ray, self.reach, CLEAR, None) else { break };
+            left *= self.media.transmittance(scene, hit.crossing.t);
+            let surface = scene.world.surface(&self.ray, &hit);
+            let side = self.ray.direction.dot(surface.normal);
+            let inside = match scene.objects[hit.primitive as usize].looks.is_medium {
+                true if side < 0.0 => self.part_entering(scene, &hit, &surface),
+                _ => Rgb::WHITE,
+            };
+            self.reach -= hit.crossing.t;
+            self.ray.origin = surface.point + surface.normal * surface.offset.copysign(side);
+            if !scene.objects[hit.primitive as usize].looks.is_medium || inside.is_black() {
+                continue;
+            }
+            if inside != Rgb::WHITE && self.forks > 0 {
+                self.forks -= 1;
+                left *=
+                    (Rgb::WHITE - inside) * self.clone().left(scene) + inside * self.entering(&hit, true).left(scene);
+                return left;
+            }
+            self = self.entering(&hit, side < 0.0);
+        }
+        left * self.media.transmittance(scene, self.reach)
+    }
+
+    /// The same behind a boundary.
+    fn entering(mut self, hit: &Hit, entering: bool) -> Way {
+        let _ = self.media.cross(hit.primitive, entering);
+        self
+    }
+
+    /// Of what passes the boundary of a medium from outside, the part that goes through and not past it.
+    fn part_entering(&self, scene: &CompiledScene, hit: &Hit, surface: &Surface) -> Rgb {
+        if !scene.objects[hit.primitive as usize].looks.has_holes {
+            return Rgb::WHITE;
+        }
+        let past = Rgb::WHITE - opacity_at(scene, hit, surface);
+        let all = passed(scene, &self.ray, hit, surface, self.media.ior(scene));
+        let part = |past: f32, all: f32| if all > 0.0 { ((all - past) / all).clamp(0.0, 1.0) } else { 0.0 };
+        Rgb::new(part(past.r, all.r), part(past.g, all.g), part(past.b, all.b))
+    }
 }

@@ -28,7 +28,7 @@
 //!   `specular_color` is a multiple of 0.04; its texture is not used.
 //! * KHR_materials_unlit becomes a classic material of `ambient` 1 without anything else: the color itself, under the usual
 //!   white ambient light. Path tracing lets such materials glow as bright.
-//! * Occlusion and thickness textures, and normals of coats, are not used; nor the directions in anisotropy textures.
+//! * Occlusion and thickness textures, and normals of coats, are not used.
 //! * All textures of a material are laid on by the texture coordinates of the first.
 
 mod accessor;

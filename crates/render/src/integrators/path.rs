@@ -140,7 +140,8 @@ impl<O: Observer> Path<'_, O> {
             let there = opacity.to_array().iter().sum::<f32>() / 3.0;
             if self.sampler.one(self.step(), Purpose::Opacity) >= f64::from(there) {
                 self.state.weight *= (Rgb::WHITE - opacity) * (1.0 / (1.0 - there));
-                self.pass(&shading, shading.crosses_past(opacity));
+                // No medium begins where a surface is not, but one that the ray is in ends.
+                self.pass(&shading, shading.bounds_medium && !shading.from_outside);
                 return true;
             }
             self.state.weight *= opacity * (1.0 / there);

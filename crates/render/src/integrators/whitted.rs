@@ -199,14 +199,15 @@ impl<O: Observer> Path<'_, O> {
         }
     }
 
-    /// What lies behind where the surface is not there, of which so much is.
+    /// What lies behind where the surface is not there, of which so much is. No medium begins there, but one that the ray is in
+    /// ends.
     #[inline(never)]
     fn go_past(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb, opacity: Rgb) {
         let weight = weight * (Rgb::WHITE - opacity);
         if weight.is_black() {
             return;
         }
-        let undo = match shading.crosses_past(opacity) {
+        let undo = match shading.bounds_medium && !shading.from_outside {
             true => self.media.cross(shading.primitive, shading.from_outside),
             false => Undo::Nothing,
         };

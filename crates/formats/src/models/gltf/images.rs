@@ -6,7 +6,7 @@ use super::value::{Place, Value};
 use crate::limits::textures;
 use crate::{Exceeded, Limit};
 use durer_imaging::{Alpha, Bitmap, Texels, decode};
-use durer_math::functions::{cos, sin};
+use durer_math::functions::{atan2, cos, sin};
 use durer_math::{DAffine3, DMat3, DVec3, Rgb};
 use durer_scene::{
     Channels, Encoding, Filter, ImageAsset, ImageId, ImageTexture, Mapping, Paint, Pattern, Texture, TextureId,
@@ -14,6 +14,7 @@ use durer_scene::{
 };
 use std::borrow::Cow;
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// The pictures that are used, and the textures that show them.
@@ -27,11 +28,22 @@ pub(super) struct Images {
     bytes: u64,
 }
 
-/// What a picture is made from: an image, with the least alpha that counts as there.
+/// What a picture is made from: an image, and what is made of it.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Key {
     image: usize,
-    cutoff: Option<u32>,
+    made: Made,
+}
+
+/// What is made of an image. Numbers are there by their bits.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+enum Made {
+    /// Itself.
+    Whole,
+    /// The least alpha that counts as there.
+    Mask(u32),
+    /// How directions in it are turned, to so many turns more.
+    Turns(u64),
 }
 
 /// What a material says of one of its textures.
@@ -142,8 +154,16 @@ impl Images {
         meaning: Meaning,
         tint: Rgb,
     ) -> Result<Paint, ModelError> {
-        let image = self.image(source, used, None)?;
+        let image = self.image(source, used, Made::Whole)?;
         Ok(self.paint(used, image, meaning, tint))
+    }
+
+    /// A texture of the turns, counterclockwise from u to v, of the directions in red and green, and so many more. Not blended:
+    /// between almost one turn and none lies no half turn.
+    pub(super) fn turns(&mut self, source: &Source<'_>, used: &TextureUse, more: f64) -> Result<Paint, ModelError> {
+        let image = self.image(source, used, Made::Turns(more.to_bits()))?;
+        let used = TextureUse { transform: used.transform.clone(), filter: Filter::Nearest, ..*used };
+        Ok(self.paint(&used, image, Meaning::Numbers(Channels::Red), Rgb::WHITE))
     }
 
     /// A texture of the image's alpha; `None` if it has none.
@@ -153,7 +173,7 @@ impl Images {
         used: &TextureUse,
         factor: f32,
     ) -> Result<Option<Paint>, ModelError> {
-        let image = self.image(source, used, None)?;
+        let image = self.image(source, used, Made::Whole)?;
         let has_alpha = self.images[image.0 as usize].bitmap.alpha.is_some();
         Ok(has_alpha.then(|| self.paint(used, image, Meaning::Numbers(Channels::Alpha), Rgb::gray(factor))))
     }
@@ -165,11 +185,11 @@ impl Images {
         used: &TextureUse,
         cutoff: f32,
     ) -> Result<Option<Paint>, ModelError> {
-        let image = self.image(source, used, None)?;
+        let image = self.image(source, used, Made::Whole)?;
         if self.images[image.0 as usize].bitmap.alpha.is_none() {
             return Ok(None);
         }
-        let image = self.image(source, used, Some(cutoff))?;
+        let image = self.image(source, used, Made::Mask(cutoff.to_bits()))?;
         Ok(Some(self.paint(used, image, Meaning::Numbers(Channels::Alpha), Rgb::WHITE)))
     }
 
@@ -184,18 +204,22 @@ impl Images {
         Paint::Texture(TextureId(self.textures.len() as u32 - 1))
     }
 
-    fn image(&mut self, source: &Source<'_>, used: &TextureUse, cutoff: Option<f32>) -> Result<ImageId, ModelError> {
-        let key = Key { image: used.image, cutoff: cutoff.map(f32::to_bits) };
+    fn image(&mut self, source: &Source<'_>, used: &TextureUse, made: Made) -> Result<ImageId, ModelError> {
+        let key = Key { image: used.image, made };
         if let Some(id) = self.ids.get(&key) {
             return Ok(*id);
         }
-        let (bitmap, suffix) = match cutoff {
-            None => (read(source, used, &mut self.bytes)?, String::new()),
-            Some(cutoff) => {
-                let whole = self.image(source, used, None)?;
-                let bitmap = Arc::clone(&self.images[whole.0 as usize].bitmap);
-                take_alpha(source, &bitmap, &mut self.bytes, used.place)?;
+        let (bitmap, suffix) = match made {
+            Made::Whole => (read(source, used, &mut self.bytes)?, String::new()),
+            Made::Mask(cutoff) => {
+                let cutoff = f32::from_bits(cutoff);
+                let bitmap = self.whole_for(source, used, 4)?;
                 (masked(&bitmap, cutoff), format!(" where alpha is at least {cutoff}"))
+            }
+            Made::Turns(more) => {
+                let more = f64::from_bits(more);
+                let bitmap = self.whole_for(source, used, 6)?;
+                (turned(&bitmap, more), format!(" as turns, and {more} more"))
             }
         };
         let file = source.image_name(used.image)? + &suffix;
@@ -204,6 +228,17 @@ impl Images {
         self.images.push(ImageAsset { file, bitmap: Arc::new(bitmap) });
         self.ids.insert(key, id);
         Ok(id)
+    }
+}
+
+impl Images {
+    /// The image itself, of which something is to be made that takes so many bytes for each pixel; counts them before.
+    fn whole_for(&mut self, source: &Source<'_>, used: &TextureUse, each: u64) -> Result<Arc<Bitmap>, ModelError> {
+        let whole = self.image(source, used, Made::Whole)?;
+        let bitmap = Arc::clone(&self.images[whole.0 as usize].bitmap);
+        let bytes = each * u64::from(bitmap.width) * u64::from(bitmap.height);
+        take(source, bytes, &mut self.bytes, used.place)?;
+        Ok(bitmap)
     }
 }
 
@@ -220,9 +255,9 @@ fn read(source: &Source<'_>, used: &TextureUse, taken: &mut u64) -> Result<Bitma
     Ok(bitmap)
 }
 
-/// Counts the bytes of what [`masked`] makes, before it does.
-fn take_alpha(source: &Source<'_>, bitmap: &Bitmap, taken: &mut u64, place: Place) -> Result<(), ModelError> {
-    let (bytes, allowed) = (4 * u64::from(bitmap.width) * u64::from(bitmap.height), source.limits.max_texture_bytes);
+/// Counts the bytes of a picture before it is made.
+fn take(source: &Source<'_>, bytes: u64, taken: &mut u64, place: Place) -> Result<(), ModelError> {
+    let allowed = source.limits.max_texture_bytes;
     *taken = taken.saturating_add(bytes);
     if *taken <= allowed {
         return Ok(());
@@ -238,6 +273,23 @@ fn masked(bitmap: &Bitmap, cutoff: f32) -> Bitmap {
     let alpha = (0..pixels).map(|at| if is_there(at) { 255 } else { 0 }).collect();
     let texels = Texels::U8(vec![[0; 3]; pixels]);
     Bitmap { width: bitmap.width, height: bitmap.height, texels, alpha: Some(Alpha::U8(alpha)) }
+}
+
+/// How far directions are turned, counterclockwise from x, in turns from 0 to 1, and so many more. Their x and y from -1 to 1 are
+/// stored as red and green from 0 to 1.
+fn turned(bitmap: &Bitmap, more: f64) -> Bitmap {
+    let turns = |x: f64, y: f64| {
+        let turns = atan2(2.0 * y - 1.0, 2.0 * x - 1.0) / TAU + more;
+        // One turn is none.
+        [((turns - turns.floor()) * f64::from(u16::MAX)).round() as u16; 3]
+    };
+    let of = |[x, y, _]: [f64; 3]| turns(x, y);
+    let texels = match &bitmap.texels {
+        Texels::U8(texels) => texels.iter().map(|texel| of(texel.map(|x| f64::from(x) / 255.0))).collect(),
+        Texels::U16(texels) => texels.iter().map(|texel| of(texel.map(|x| f64::from(x) / 65_535.0))).collect(),
+        Texels::F32(texels) => texels.iter().map(|texel| of(texel.map(f64::from))).collect(),
+    };
+    Bitmap { width: bitmap.width, height: bitmap.height, texels: Texels::U16(texels), alpha: None }
 }
 
 impl<'a> Source<'a> {

@@ -208,17 +208,18 @@ impl<'a> Reader<'_, '_, 'a> {
         Ok(())
     }
 
-    /// KHR_materials_anisotropy.
+    /// KHR_materials_anisotropy: the texture has directions in red and green, and strengths in blue.
     fn add_anisotropy(&mut self, value: &Value<'a>, principled: &mut Principled) -> Result<(), ModelError> {
         let Some(extension) = value.extension("KHR_materials_anisotropy")? else { return Ok(()) };
         let texture = "anisotropyTexture";
         principled.anisotropy = self.amount(&extension, "anisotropyStrength", 0.0, texture, Channels::Blue)?;
-        if extension.has(texture) {
-            let sentence = "the directions in anisotropy textures are not used, only their strengths";
-            self.source.notes.add(sentence, value.place);
-        }
         let turns = extension.number("anisotropyRotation")?.unwrap_or(0.0) / TAU;
-        principled.anisotropy_rotation = gray((turns - turns.floor()) as f32);
+        let turns = turns - turns.floor();
+        let directions = if is_black(principled.anisotropy) { None } else { self.texture(&extension, texture)? };
+        principled.anisotropy_rotation = match directions {
+            Some(directions) => self.images.turns(self.source, &directions, turns)?,
+            None => gray(turns as f32),
+        };
         Ok(())
     }
 
@@ -326,6 +327,10 @@ impl<'a> Reader<'_, '_, 'a> {
         note(coat, "clearcoatNormalTexture", "clear coats have no normal textures of their own");
         Ok(())
     }
+}
+
+fn is_black(paint: Paint) -> bool {
+    paint == Paint::Color(Rgb::BLACK)
 }
 
 fn gray(amount: f32) -> Paint {

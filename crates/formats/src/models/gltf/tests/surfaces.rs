@@ -3,6 +3,7 @@
 use super::super::super::Model;
 use super::build::File;
 use super::{fault, only_mesh, read};
+use durer_imaging::Texels;
 use durer_math::{DVec3, Rgb};
 use durer_scene::{
     Attenuation, Channels, Classic, Emission, Encoding, Filter, ImageTexture, Material, MaterialKind, Paint, Pattern,
@@ -214,12 +215,35 @@ fn what_is_not_used_is_said() {
         "extensions": {
             "KHR_materials_volume": { "thicknessFactor": 1, "thicknessTexture": texture() },
             "KHR_materials_clearcoat": { "clearcoatFactor": 1, "clearcoatNormalTexture": texture() },
-            "KHR_materials_anisotropy": { "anisotropyStrength": 1, "anisotropyTexture": texture() },
         },
     }));
     let warnings = read(&file).warnings;
-    assert_eq!(warnings.len(), 5, "{warnings:?}");
+    assert_eq!(warnings.len(), 4, "{warnings:?}");
     assert!(warnings.iter().all(|warning| warning.ends_with("(materials[0])")), "{warnings:?}");
+}
+
+/// Red and green are x and y of directions, blue the strength; the rotation comes on top.
+#[test]
+fn anisotropy_textures_turn() {
+    let mut file = File::new();
+    // Along x, along y, against x.
+    let texture = file.texture(1, &[[255, 128, 255, 255], [128, 255, 51, 255], [0, 128, 0, 255]]);
+    let turned = json!({ "anisotropyStrength": 0.5, "anisotropyRotation": std::f64::consts::FRAC_PI_2,
+        "anisotropyTexture": { "index": texture } });
+    file.show_triangle(json!({ "extensions": { "KHR_materials_anisotropy": turned } }));
+    let model = read(&file);
+    let material = principled(&model.scene.materials[0]);
+    let (_, strength) = texture_of(&model.scene, material.anisotropy);
+    assert_eq!((strength.channels, strength.tint), (Channels::Blue, Rgb::gray(0.5)));
+    let (_, turned) = texture_of(&model.scene, material.anisotropy_rotation);
+    assert_eq!(turned.filter, Filter::Nearest);
+    let bitmap = &model.scene.images[turned.image.0 as usize].bitmap;
+    let Texels::U16(turns) = &bitmap.texels else { panic!("{bitmap:?}") };
+    for (found, expected) in turns.iter().zip([0.25, 0.5, 0.75]) {
+        let found = f64::from(found[0]) / 65_535.0;
+        assert!((found - expected).abs() < 1e-3, "{found}, not {expected}");
+    }
+    assert!(model.warnings.is_empty(), "{:?}", model.warnings);
 }
 
 #[test]
