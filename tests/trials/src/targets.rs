@@ -3,9 +3,7 @@
 use crate::{Dice, scenes};
 use durer::imaging::{DecodeLimits, Image, decode};
 use durer::math::{Fingerprint, Rgb};
-use durer::{
-    AssetError, Assets, CheckedScene, Checkpoint, Limits, PixelExplanation, RenderOptions, encode_checkpoint,
-};
+use durer::{AssetError, Assets, CheckedScene, Checkpoint, Limits, PixelExplanation, RenderOptions, encode_checkpoint};
 
 /// A target, as the fuzzer and the tests call it.
 pub type Target = fn(&[u8]);
