@@ -46,7 +46,7 @@ def material(name, m):
     elif m["kind"] == "metal":
         surface = tree.nodes.new("ShaderNodeBsdfMetallic")
         surface.fresnel_type = "PHYSICAL_CONDUCTOR"
-        surface.distribution = "GGX"
+        surface.distribution = "MULTI_GGX"
         surface.inputs["IOR"].default_value = m["eta"]
         surface.inputs["Extinction"].default_value = m["k"]
         surface.inputs["Roughness"].default_value = m["roughness"]

@@ -78,7 +78,7 @@ everything = {
     },
 }
 if description.get("environment"):
-    everything["sky"] = {"type": "envmap", "filename": os.path.join(folder, description["environment"])}
+    everything["sky"] = {"type": "envmap", "filename": os.path.join(folder, description["environment_to_the_poles"])}
 for name, m in description["materials"].items():
     everything[name] = {"id": name, **material(m)}
 for index, shape in enumerate(description["shapes"]):

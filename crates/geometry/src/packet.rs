@@ -12,7 +12,7 @@ use durer_math::DVec3;
 pub const LANES: usize = 8;
 
 /// Up to eight rays, by components. Unused lanes repeat a used one.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 #[repr(C, align(64))]
 pub struct Packet {
     pub(crate) origin: [[f64; LANES]; 3],
@@ -31,12 +31,11 @@ impl Packet {
         packet
     }
 
-    /// The rays from a point in eight directions of unit length, of which the first `count` are wanted.
+    /// The first so many rays are wanted, of eight that are there.
     #[inline]
-    pub(crate) fn from_point(point: DVec3, direction: [[f64; LANES]; 3], count: usize) -> Packet {
+    pub(crate) fn set_count(&mut self, count: usize) {
         debug_assert!((1..=LANES).contains(&count));
-        let origin = [[point.x; LANES], [point.y; LANES], [point.z; LANES]];
-        Packet { origin, direction, count }
+        self.count = count;
     }
 
     /// The packet of other rays, one for each.
@@ -63,6 +62,11 @@ impl Packet {
         self.count
     }
 
+    /// Where they go, by components.
+    pub fn directions(&self) -> &[[f64; LANES]; 3] {
+        &self.direction
+    }
+
     /// One bit for each ray.
     pub(crate) fn all(&self) -> u32 {
         (1 << self.count) - 1
@@ -78,7 +82,7 @@ impl Packet {
 }
 
 /// What the rays of a packet hit.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 #[repr(C, align(64))]
 pub struct PacketHits {
     /// Where; for rays that hit nothing, where they end.

@@ -77,6 +77,8 @@ pub struct Primitive {
     shape_from_world: DMat3,
     /// For a flat shape its unit normal in the world and one over the stretch of it; the same everywhere on it.
     flat: Option<(DVec3, f64)>,
+    /// A ball around it in the world: its middle, and the square of its radius, or a little more.
+    ball: (DVec3, f64),
     /// Norms (greatest sum of a row) of the two matrices, for bounds on rounding errors.
     norms: [f64; 2],
     /// How far the two are from being inverse to each other: the norm of their product less the identity.
@@ -92,6 +94,15 @@ pub struct Surface {
     pub normal: DVec3,
     /// How far from `point` along the normal one is surely on that side of the surface, whatever is rounded.
     pub offset: f64,
+}
+
+impl Surface {
+    /// What goes on of a ray behind it.
+    #[inline]
+    pub fn onward(&self, ray: &Ray) -> Ray {
+        let onward = self.offset.copysign(ray.direction.dot(self.normal));
+        Ray { origin: self.point + self.normal * onward, direction: ray.direction }
+    }
 }
 
 /// The constructors take measures in an object's space, and the map from there to the world.
@@ -199,6 +210,7 @@ impl Primitive {
             | Kind::Solid(_) => None,
         };
         Primitive {
+            ball: ball_around(&kind, world_from_shape),
             flat,
             kind,
             mask: u32::MAX,
@@ -363,12 +375,14 @@ impl Primitive {
 
     /// How often the ray crosses it with 0 < t < `t_max`.
     pub fn count_crossings(&self, ray: &Ray, t_max: f64) -> u32 {
-        let mut count = 0;
-        let _ = self.each_crossing(ray, t_max, |_, _, _| {
-            count += 1;
-            false
-        });
-        count
+        let (mut ray, mut t_max, most) = (*ray, t_max, self.most_crossings());
+        for count in 0..most {
+            let Some(crossing) = self.intersect(&ray, t_max) else { return count };
+            if count + 1 < most {
+                (ray, t_max) = (self.surface(&ray, &crossing).onward(&ray), t_max - crossing.t);
+            }
+        }
+        most
     }
 
     /// Calls `visit` for one crossing with 0 < t < `t_max` after the other, from near to far, until it returns true; gives
@@ -388,9 +402,7 @@ impl Primitive {
             if visit(&ray, &crossing, &surface) {
                 return true;
             }
-            let onward = surface.offset.copysign(ray.direction.dot(surface.normal));
-            ray.origin = surface.point + surface.normal * onward;
-            t_max -= crossing.t;
+            (ray, t_max) = (surface.onward(&ray), t_max - crossing.t);
         }
         false
     }
@@ -398,15 +410,9 @@ impl Primitive {
     /// A bound on how often a straight line crosses it, so that no loop over crossings runs on for ever.
     fn most_crossings(&self) -> u32 {
         match self.kind {
-            Kind::Plane(_)
-            | Kind::Sphere(_)
-            | Kind::Cuboid(_)
-            | Kind::Cylinder(_)
-            | Kind::Cone(_)
-            | Kind::Disc(_)
-            | Kind::Rectangle(_)
-            | Kind::Triangle(_)
-            | Kind::Torus(_) => 4,
+            Kind::Plane(_) | Kind::Disc(_) | Kind::Rectangle(_) | Kind::Triangle(_) => 1,
+            Kind::Sphere(_) | Kind::Cuboid(_) | Kind::Cylinder(_) | Kind::Cone(_) => 2,
+            Kind::Torus(_) => 4,
             Kind::Mesh(_) | Kind::Particles(_) | Kind::Solid(_) => MOST_CROSSINGS,
         }
     }
@@ -458,6 +464,16 @@ impl Primitive {
         let normal = self.shape_from_world.transpose() * normal;
         // Opposite normals may cancel out.
         normal.try_normalize()
+    }
+
+    /// From a point on a triangle of a mesh to the rounder surface that its normals tell of, on the side that `normal` points to;
+    /// `None` if there is none, or it lies on the other side.
+    pub fn lift(&self, point: DVec3, part: u32, normal: DVec3) -> Option<DVec3> {
+        let Kind::Mesh(mesh) = &self.kind else { return None };
+        let point = self.in_shape(point);
+        let own = self.shape_from_world.transpose() * mesh.shading_normal(point, part)?;
+        let lift = mesh.lift(point, part, own.dot(normal) < 0.0)?;
+        Some(self.world_from_shape * lift).filter(|lift| lift.is_finite())
     }
 
     /// The weights of a triangle's three vertices at a point of it, if it is a mesh, or a solid that has the triangle from
@@ -512,6 +528,34 @@ fn axial_frame(axis: DVec3, radius: f64, origin: DVec3) -> DAffine3 {
     let length = axis.length();
     let turn = rotation_between(DVec3::Y, axis / length);
     DAffine3::from_mat3_translation(turn * DMat3::from_diagonal(DVec3::new(radius, length, radius)), origin)
+}
+
+/// The middle of a ball around a shape, and the square of its radius, or a little more.
+fn ball_around(kind: &Kind, world_from_shape: &DAffine3) -> (DVec3, f64) {
+    let map = &world_from_shape.matrix3;
+    let Bounds { min, max } = each_kind!(kind, shape => shape.bounds());
+    let half = (max - min) * 0.5;
+    let squared_radius = match kind {
+        // The square of the greatest stretch is at most this product.
+        Kind::Sphere(_) => row_norm(map) * row_norm(&map.transpose()),
+        Kind::Plane(_)
+        | Kind::Cuboid(_)
+        | Kind::Cylinder(_)
+        | Kind::Cone(_)
+        | Kind::Disc(_)
+        | Kind::Rectangle(_)
+        | Kind::Triangle(_)
+        | Kind::Torus(_)
+        | Kind::Mesh(_)
+        | Kind::Particles(_)
+        | Kind::Solid(_) => {
+            let corners = [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
+            let corners = corners.map(|(x, y)| (*map * (half * DVec3::new(x, y, 1.0))).length_squared());
+            // Without end, or NaN, it reaches everywhere.
+            corners.into_iter().fold(0.0, |most, squared| if squared <= most { most } else { squared })
+        }
+    };
+    (world_from_shape.transform_point3((min + max) * 0.5), squared_radius * (1.0 + 1e-6))
 }
 
 fn row_norm(m: &DMat3) -> f64 {

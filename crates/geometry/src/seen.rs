@@ -27,7 +27,13 @@ pub struct Seen {
     start: Columns,
     /// Which of them see something, one bit each.
     hit: u32,
-    hits: [Option<Hit>; LANES],
+    /// Which of them came from the side that the normal points to.
+    outside: u32,
+    /// The numbers of what they see, as sums with [`ROUND`].
+    numbers: [f64; LANES],
+    parts: [u32; LANES],
+    /// Each primitive that is seen, and the rays that see it.
+    groups: ArrayVec<(u32, u32), LANES>,
 }
 
 /// How eight points lie to another one.
@@ -82,11 +88,25 @@ pub enum Way {
     Unknown,
 }
 
+/// Rays with a smaller cosine to the normal of what they start from might meet it by rounding. It is far above that of any map
+/// that is not all but flat.
+const TOUCHING: f64 = 1e-6;
+
 /// The number of no primitive.
 const NOTHING: u32 = u32::MAX;
 
 /// A list that could not be used up by all lanes at once: a primitive, and the lanes that may meet it.
-type Curved = ArrayVec<(u32, u32), 96>;
+#[derive(Default)]
+struct Curved(ArrayVec<(u32, u32), 96>);
+
+impl Curved {
+    #[inline(always)]
+    fn add(&mut self, id: u32, lanes: u32) {
+        if lanes != 0 {
+            self.0.push((id, lanes));
+        }
+    }
+}
 
 impl Default for Seen {
     /// Nothing.
@@ -99,7 +119,10 @@ impl Default for Seen {
             face: Columns::default(),
             start: Columns::default(),
             hit: 0,
-            hits: [None; LANES],
+            outside: 0,
+            numbers: [ROUND + f64::from(NOTHING); LANES],
+            parts: [0; LANES],
+            groups: ArrayVec::new(),
         }
     }
 }
@@ -122,12 +145,30 @@ impl Seen {
     /// What a ray hits first.
     #[inline]
     pub fn hit(&self, lane: usize) -> Option<Hit> {
-        self.hits[lane % LANES]
+        let lane = lane % LANES;
+        let crossing = Crossing { t: self.t[lane], part: self.parts[lane] };
+        (self.hit >> lane & 1 == 1).then(|| Hit { crossing, primitive: whole(self.numbers[lane]) as u32 })
     }
 
     /// Which rays hit something, one bit each.
     pub fn lanes(&self) -> u32 {
         self.hit
+    }
+
+    /// Each primitive that is hit, and which rays hit it.
+    pub fn groups(&self) -> &[(u32, u32)] {
+        &self.groups
+    }
+
+    /// The normals on the sides that the rays came from, by components.
+    pub fn faces(&self) -> &[[f64; LANES]; 3] {
+        &self.face
+    }
+
+    /// Which rays hit this primitive.
+    #[inline(always)]
+    fn lanes_on(&self, primitive: u32) -> u32 {
+        self.groups.iter().fold(0, |lanes, group| if group.0 == primitive { group.1 } else { lanes })
     }
 
     /// How far away that is, for all rays; infinite where there is nothing.
@@ -158,6 +199,11 @@ impl Sights {
     /// Those of which it is not known whether it is.
     pub fn unknown(&self) -> u32 {
         self.wanted & !(self.open | self.shut)
+    }
+
+    /// The directions for all points, by components.
+    pub fn directions(&self) -> &[[f64; LANES]; 3] {
+        &self.direction
     }
 
     /// The cosines for all points.
@@ -236,17 +282,18 @@ pub struct Pinhole {
 }
 
 impl World {
-    /// Eight rays: in the directions `forward + right · across + up · up`, of which the first `count` are wanted.
-    pub fn rays_of(&self, pinhole: &Pinhole, across: &[f64; LANES], up: &[f64; LANES], count: usize) -> Packet {
-        let mut direction = Columns::default();
+    /// Makes a packet of eight rays in the directions `forward + right · across + up · up`, of which the first `count` are
+    /// wanted.
+    pub fn rays_of(&self, pinhole: &Pinhole, [across, up]: &[[f64; LANES]; 2], count: usize, packet: &mut Packet) {
         dispatch!(self.simd(), simd => {
             let right = Lanes::splat(simd, pinhole.right) * f64x8::simd_from(simd, *across);
             let up = Lanes::splat(simd, pinhole.up) * f64x8::simd_from(simd, *up);
             let towards = Lanes::splat(simd, pinhole.forward) + (right + up);
             let length = towards.dot(towards).sqrt();
-            (towards * (f64x8::splat(simd, 1.0) / length)).store(&mut direction);
+            (towards * (f64x8::splat(simd, 1.0) / length)).store(&mut packet.direction);
+            Lanes::splat(simd, pinhole.eye).store(&mut packet.origin);
         });
-        Packet::from_point(pinhole.eye, direction, count)
+        packet.set_count(count);
     }
 
     /// What the rays of a packet see, which all start at a vantage.
@@ -259,20 +306,20 @@ impl World {
         let rays = (Lanes::load(simd, &packet.origin), Lanes::load(simd, &packet.direction));
         let far = f64x8::splat(simd, f64::INFINITY);
         let (mut nearest, mut ids) = (far, f64x8::splat(simd, ROUND + f64::from(NOTHING)));
-        let (mut curved, mut lost) = (Curved::new(), 0);
+        let (mut curved, mut lost) = (Curved::default(), 0);
         let mut cells = ByNumber::new(cells_of(simd, rays.1), packet.all());
         while let Some((cell, lanes)) = cells.next(simd) {
             let Some(list) = from.listed(cell) else {
                 lost |= lanes;
                 continue;
             };
-            for &id in list {
+            for id in list.iter().copied().map(u32::from) {
                 let primitive = &self.primitives()[id as usize];
                 if primitive.mask == 0 {
                     continue;
                 }
                 if !primitive.is_flat() {
-                    curved.push((id, lanes));
+                    curved.add(id, lanes & primitive.lanes_near(simd, rays));
                     continue;
                 }
                 let number = f64x8::splat(simd, ROUND + f64::from(id));
@@ -281,25 +328,11 @@ impl World {
                 (nearest, ids) = (wins.select(t, nearest), wins.select(number, ids));
             }
         }
-        let found = nearest.simd_lt(far).to_bitmask() as u32;
-        let each: [f64; LANES] = ids.into();
-        seen.t = nearest.into();
-        seen.hit = found & packet.all();
-        for (lane, &number) in each.iter().enumerate() {
-            seen.hits[lane] = match seen.hit >> lane & 1 {
-                1 => Some(Hit { crossing: Crossing { t: seen.t[lane], part: 0 }, primitive: whole(number) as u32 }),
-                _ => None,
-            };
-        }
-        if !curved.is_empty() || lost != 0 {
+        (seen.t, seen.numbers, seen.parts) = (nearest.into(), ids.into(), [0; LANES]);
+        seen.hit = nearest.simd_lt(far).to_bitmask() as u32 & packet.all();
+        if !curved.0.is_empty() || lost != 0 {
             self.see_curved(packet, &curved, lost, seen);
-            let mut each = each;
-            for (number, hit) in each.iter_mut().zip(&seen.hits) {
-                if let Some(hit) = hit {
-                    *number = ROUND + f64::from(hit.primitive);
-                }
-            }
-            ids = each.simd_into(simd);
+            ids = seen.numbers.simd_into(simd);
         }
         self.surfaces(simd, rays, (packet, ids), seen);
     }
@@ -307,14 +340,14 @@ impl World {
     /// Goes on with what is not flat, and with lanes for which there is no list.
     #[inline(never)]
     fn see_curved(&self, packet: &Packet, curved: &Curved, lost: u32, seen: &mut Seen) {
-        let lanes = curved.iter().fold(lost, |all, (_, lanes)| all | lanes);
+        let lanes = curved.0.iter().fold(lost, |all, (_, lanes)| all | lanes);
         for lane in lanes_of(lanes) {
             let ray = packet.ray(lane);
             let mut best = Best::below(f64::INFINITY);
-            if let Some(hit) = seen.hits[lane] {
+            if let Some(hit) = seen.hit(lane) {
                 best.offer(hit.primitive, hit.crossing);
             }
-            for &(id, _) in curved.iter().filter(|(_, lanes)| lanes >> lane & 1 == 1) {
+            for &(id, _) in curved.0.iter().filter(|(_, lanes)| lanes >> lane & 1 == 1) {
                 if let Some(crossing) = self.primitives()[id as usize].intersect(&ray, best.reach()) {
                     best.offer(id, crossing);
                 }
@@ -323,9 +356,11 @@ impl World {
                 1 => self.closest_hit(&ray, f64::INFINITY, u32::MAX, None),
                 _ => best.hit(),
             };
-            seen.hits[lane] = hit;
-            seen.t[lane] = hit.map_or(f64::INFINITY, |hit| hit.crossing.t);
             seen.hit = seen.hit & !(1 << lane) | u32::from(hit.is_some()) << lane;
+            seen.t[lane] = hit.map_or(f64::INFINITY, |hit| hit.crossing.t);
+            if let Some(hit) = hit {
+                (seen.numbers[lane], seen.parts[lane]) = (ROUND + f64::from(hit.primitive), hit.crossing.part);
+            }
         }
     }
 
@@ -340,7 +375,9 @@ impl World {
     ) {
         let near = rays.0 + rays.1 * f64x8::simd_from(simd, seen.t);
         let mut primitives = ByNumber::new(ids, seen.hit);
+        seen.groups.clear();
         while let Some((id, lanes)) = primitives.next(simd) {
+            seen.groups.push((id as u32, lanes));
             let primitive = &self.primitives()[id];
             match primitive.flat_normal() {
                 Some(normal) if lanes.count_ones() > 1 => {
@@ -361,7 +398,7 @@ impl World {
                 }
                 Some(_) | None => {
                     for lane in lanes_of(lanes) {
-                        let Some(Hit { crossing, .. }) = seen.hits[lane] else { continue };
+                        let Some(Hit { crossing, .. }) = seen.hit(lane) else { continue };
                         let surface = primitive.surface(&packet.ray(lane), &crossing);
                         set_lane(&mut seen.point, lane, surface.point);
                         set_lane(&mut seen.normal, lane, surface.normal);
@@ -372,6 +409,7 @@ impl World {
         }
         let (point, normal) = (Lanes::load(simd, &seen.point), Lanes::load(simd, &seen.normal));
         let outside = rays.1.dot(normal).simd_lt(f64x8::splat(simd, 0.0));
+        seen.outside = outside.to_bitmask() as u32;
         let inward = -normal;
         let face = Lanes {
             x: outside.select(normal.x, inward.x),
@@ -403,20 +441,32 @@ impl World {
             let outside = (-direction.dot(Lanes::splat(simd, axis))).simd_lt(f64x8::splat(simd, least));
             wanted &= !outside.to_bitmask() as u32;
         }
+        // What is flat cannot stand in its own way, nor can what is convex, seen from outside: rays start off it on the side of
+        // the other point, and lead away. Only those that all but touch it might be told otherwise by rounding.
+        let leaving = cosine.simd_gt(f64x8::splat(simd, TOUCHING)).to_bitmask() as u32;
         let (mut shut, mut unknown) = (0, 0);
         if wanted != 0 {
             let t_max = distance * f64x8::splat(simd, reach);
-            let mut curved = Curved::new();
+            let mut curved = Curved::default();
             let mut cells = ByNumber::new(cells_of(simd, -away), wanted);
             while let Some((cell, lanes)) = cells.next(simd) {
                 let Some(list) = to.listed(cell) else {
                     unknown |= lanes;
                     continue;
                 };
-                for &id in list {
+                for id in list.iter().copied().map(u32::from) {
                     let primitive = &self.primitives()[id as usize];
+                    let off_itself = match primitive.is_flat() {
+                        true => leaving,
+                        false if primitive.is_convex() => leaving & seen.outside,
+                        false => 0,
+                    };
+                    let lanes = lanes & !(seen.lanes_on(id) & off_itself);
+                    if lanes == 0 {
+                        continue;
+                    }
                     if !primitive.is_flat() {
-                        curved.push((id, lanes));
+                        curved.add(id, lanes & primitive.lanes_near(simd, (start, direction)));
                         continue;
                     }
                     let (_, met) = primitive.meet_lanes(simd, (start, direction), t_max);
@@ -424,7 +474,7 @@ impl World {
                     if primitive.mask & mask != 0 { shut |= met } else { unknown |= met }
                 }
             }
-            if !curved.is_empty() {
+            if !curved.0.is_empty() {
                 let met = self.curved_on_way(&curved, (seen, sights), &t_max.into(), mask);
                 (shut, unknown) = (shut | met[0], unknown | met[1]);
             }
@@ -443,7 +493,7 @@ impl World {
         mask: u32,
     ) -> [u32; 2] {
         let [mut shut, mut other] = [0, 0];
-        for &(id, lanes) in curved {
+        for &(id, lanes) in &curved.0 {
             let primitive = &self.primitives()[id as usize];
             for lane in lanes_of(lanes & !shut) {
                 let ray = Ray { origin: lane_of(&seen.start, lane), direction: lane_of(&sights.direction, lane) };

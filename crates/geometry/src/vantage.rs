@@ -25,7 +25,7 @@ pub(crate) const MOST_BOUNDED: usize = 256;
 pub(crate) const MOST_PLANES: usize = 16;
 
 /// A cell that more primitives are seen through has no list; its rays go through the tree.
-const LONGEST_LIST: u32 = 12;
+const LONGEST_LIST: usize = 12;
 
 /// Projections are widened by this much of the cube's half edge, for the rounding of rays and of the
 /// look-up, which is in single precision.
@@ -36,15 +36,34 @@ const MARGIN: f64 = 1e-6;
 pub struct Vantage {
     point: DVec3,
     cells: Vec<Cell>,
-    /// The lists of all cells, one after the other.
-    ids: Vec<u32>,
+    /// The lists of all cells, one after the other. There are few enough primitives that 16 bits hold their indices.
+    ids: Vec<u16>,
 }
 
-/// Where a cell's list is.
+/// Where a cell's list is: its start in the lower 24 bits, its length above. Memory that is touched first costs more time than
+/// taking this apart.
 #[derive(Clone, Copy, Debug, Default)]
-struct Cell {
-    start: u32,
-    length: u32,
+struct Cell(u32);
+
+impl Cell {
+    #[inline(always)]
+    fn start(self) -> usize {
+        (self.0 & 0xff_ffff) as usize
+    }
+
+    /// Of a list that is too long, more than [`LONGEST_LIST`].
+    #[inline(always)]
+    fn length(self) -> usize {
+        (self.0 >> 24) as usize
+    }
+
+    fn starting_at(start: usize) -> Cell {
+        Cell(start as u32)
+    }
+
+    fn one_more(self) -> Cell {
+        if self.length() > LONGEST_LIST { self } else { Cell(self.0 + (1 << 24)) }
+    }
 }
 
 /// A primitive in a box.
@@ -69,25 +88,29 @@ pub(crate) struct Flat {
 impl Vantage {
     /// What is seen of these primitives from a point.
     pub(crate) fn new(point: DVec3, boxed: &[Boxed], planes: &[Flat]) -> Vantage {
+        let nearest = nearest_planes(point, planes);
         let each = |visit: &mut dyn FnMut(usize, u32)| {
             for thing in boxed {
                 for_each_cell(point, &thing.bounds, |cell| visit(cell, thing.id));
             }
-            nearest_planes(point, planes, visit);
+            for &(block, id) in &nearest {
+                block.cells().for_each(|cell| visit(cell, id));
+            }
         };
         let mut cells = vec![Cell::default(); CELL_COUNT];
-        each(&mut |cell, _| cells[cell].length += 1);
+        each(&mut |cell, _| cells[cell] = cells[cell].one_more());
         // Only lists that are short enough to be used take room.
         let mut room = 0;
-        for cell in cells.iter_mut().filter(|cell| cell.length <= LONGEST_LIST) {
-            (cell.start, room) = (room, room + cell.length);
+        for cell in cells.iter_mut().filter(|cell| cell.length() <= LONGEST_LIST) {
+            let length = cell.length();
+            (*cell, room) = (Cell::starting_at(room), room + length);
         }
-        let mut next: Vec<u32> = cells.iter().map(|cell| cell.start).collect();
-        let mut ids = vec![0; room as usize];
+        let mut ids = vec![0; room];
         each(&mut |cell, id| {
-            if cells[cell].length <= LONGEST_LIST {
-                ids[next[cell] as usize] = id;
-                next[cell] += 1;
+            let cell = &mut cells[cell];
+            if cell.length() <= LONGEST_LIST {
+                ids[cell.start() + cell.length()] = id as u16;
+                *cell = cell.one_more();
             }
         });
         Vantage { point, cells, ids }
@@ -95,7 +118,7 @@ impl Vantage {
 
     /// The primitives that can be met between a place and the point; `None` if they are too many to list.
     #[inline(always)]
-    pub(crate) fn candidates_towards(&self, place: DVec3) -> Option<&[u32]> {
+    pub(crate) fn candidates_towards(&self, place: DVec3) -> Option<&[u16]> {
         // Not from a ray's direction, which is ready only after a root and a division.
         self.candidates(place - self.point)
     }
@@ -103,7 +126,7 @@ impl Vantage {
     /// The primitives that a ray from the point in this direction (of any length) can meet first; `None` if they are too
     /// many to list.
     #[inline(always)]
-    pub(crate) fn candidates(&self, direction: DVec3) -> Option<&[u32]> {
+    pub(crate) fn candidates(&self, direction: DVec3) -> Option<&[u16]> {
         self.listed(cell_of(direction))
     }
 
@@ -115,41 +138,59 @@ impl Vantage {
 
     /// The list of a cell, as [`cells_of`] numbers them.
     #[inline(always)]
-    pub(crate) fn listed(&self, cell: usize) -> Option<&[u32]> {
-        let Cell { start, length } = self.cells[cell];
-        if length > LONGEST_LIST { None } else { self.ids.get(start as usize..(start + length) as usize) }
+    pub(crate) fn listed(&self, cell: usize) -> Option<&[u16]> {
+        let cell = self.cells[cell];
+        if cell.length() > LONGEST_LIST { None } else { self.ids.get(cell.start()..cell.start() + cell.length()) }
     }
 }
 
-/// Calls `visit` for every cell and the planes that may be the nearest of their mask somewhere in its block, or that do not
-/// hide each other.
+/// Some cells side by side.
+#[derive(Clone, Copy, Debug)]
+struct Block {
+    face: usize,
+    row: usize,
+    column: usize,
+}
+
+impl Block {
+    /// All there are.
+    fn all() -> impl Iterator<Item = Block> {
+        let faces = (0..6).flat_map(|face| (0..BLOCKS).map(move |row| (face, row)));
+        faces.flat_map(|(face, row)| (0..BLOCKS).map(move |column| Block { face, row, column }))
+    }
+
+    fn cells(self) -> impl Iterator<Item = usize> {
+        (self.row * BLOCK..(self.row + 1) * BLOCK).flat_map(move |row| {
+            let first = (self.face * CELLS + row) * CELLS + self.column * BLOCK;
+            first..first + BLOCK
+        })
+    }
+}
+
+/// The planes that may be the nearest of their mask somewhere in a block, or that do not hide each other, for each block.
 ///
 /// In a direction d a plane is at 1/t = -n·d / h, with h the height of the point above it: linear in d, so its greatest
 /// and least values on a block are at the corners.
-fn nearest_planes(point: DVec3, planes: &[Flat], visit: &mut dyn FnMut(usize, u32)) {
+fn nearest_planes(point: DVec3, planes: &[Flat]) -> Vec<(Block, u32)> {
+    let mut found = Vec::new();
     let mut planes = planes.to_vec();
     planes.sort_by_key(|plane| (plane.mask, plane.hides));
     for group in planes.chunk_by(|a, b| a.mask == b.mask && a.hides == b.hides) {
         let nearness: Vec<DVec3> = group.iter().map(|plane| nearness(plane, point)).collect();
         let mut greatest = vec![0.0; group.len()];
-        for block in 0..6 * BLOCKS * BLOCKS {
-            let (face, row, column) = (block / (BLOCKS * BLOCKS), block / BLOCKS % BLOCKS, block % BLOCKS);
+        for block in Block::all() {
             // A plane that is nearer than this nowhere in the block is hidden by another one.
             let mut nearest = 0.0_f64;
             for (nearness, greatest) in nearness.iter().zip(&mut greatest) {
-                let range = nearness_range(*nearness, face, row, column);
+                let range = nearness_range(*nearness, block);
                 nearest = if group[0].hides { nearest.max(range.0) } else { 0.0 };
                 *greatest = range.1;
             }
-            for (plane, _) in group.iter().zip(&greatest).filter(|(_, greatest)| **greatest >= nearest * (1.0 - MARGIN))
-            {
-                for cell_row in row * BLOCK..(row + 1) * BLOCK {
-                    let first = (face * CELLS + cell_row) * CELLS + column * BLOCK;
-                    (first..first + BLOCK).for_each(|cell| visit(cell, plane.id));
-                }
-            }
+            let near = group.iter().zip(&greatest).filter(|(_, greatest)| **greatest >= nearest * (1.0 - MARGIN));
+            found.extend(near.map(|(plane, _)| (block, plane.id)));
         }
     }
+    found
 }
 
 /// What times a direction is one over the distance of a plane; infinite for a plane (all but) through the point, which
@@ -162,7 +203,7 @@ fn nearness(plane: &Flat, point: DVec3) -> DVec3 {
 
 /// The least and the greatest value of `nearness · d` over the directions d of a block; for a plane through the point,
 /// which neither hides nor is hidden, 0 and infinity.
-fn nearness_range(nearness: DVec3, face: usize, row: usize, column: usize) -> (f64, f64) {
+fn nearness_range(nearness: DVec3, Block { face, row, column }: Block) -> (f64, f64) {
     if !nearness.is_finite() {
         return (0.0, f64::INFINITY);
     }
@@ -340,9 +381,9 @@ mod tests {
     fn a_box_in_front_is_not_listed_behind() {
         let bounds = Bounds { min: DVec3::new(4.0, -1.0, -1.0), max: DVec3::new(6.0, 1.0, 1.0) };
         let vantage = Vantage::new(DVec3::ZERO, &[Boxed { id: 0, bounds }], &[]);
-        assert_eq!(vantage.candidates(DVec3::X).map(<[u32]>::len), Some(1));
+        assert_eq!(vantage.candidates(DVec3::X).map(<[u16]>::len), Some(1));
         for away in [DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::new(1.0, 0.5, 0.0)] {
-            assert_eq!(vantage.candidates(away).map(<[u32]>::len), Some(0));
+            assert_eq!(vantage.candidates(away).map(<[u16]>::len), Some(0));
         }
     }
 
@@ -371,7 +412,7 @@ mod tests {
                 for mask in [1, 2] {
                     let hit = planes.iter().filter(|p| p.mask == mask && t(p) > 0.0);
                     if let Some(nearest) = hit.min_by(|a, b| t(a).total_cmp(&t(b))) {
-                        assert!(candidates.contains(&nearest.id));
+                        assert!(candidates.contains(&(nearest.id as u16)));
                     }
                 }
             }

@@ -109,7 +109,7 @@ impl World {
         match origin.and_then(|vantage| vantage.candidates(ray.direction)) {
             Some(ids) => {
                 let mut best = Best::below(t_max);
-                for &id in ids {
+                for id in ids.iter().copied().map(u32::from) {
                     self.offer(&mut best, id, ray, mask, &mut ());
                 }
                 best.hit
@@ -328,7 +328,7 @@ impl World {
     ) -> bool {
         match end.and_then(|vantage| vantage.candidates_towards(ray.origin)) {
             Some(ids) => {
-                for &id in ids {
+                for id in ids.iter().copied().map(u32::from) {
                     let primitive = &self.primitives[id as usize];
                     if primitive.meets(ray, t_max) && visit(id, primitive) {
                         return true;

@@ -34,7 +34,8 @@ impl Layers {
     /// * a normal, X, Y and Z from -1 to 1, comes from 0 to 1; 0, for no normal, is black;
     /// * other vectors, X, Y and Z, lie between their least and their greatest numbers, each for itself;
     /// * coordinates on surfaces, U and V, are red and green; of those outside of 0 to 1 the whole parts are left out;
-    /// * depth, Z alone, is white for the least and almost black for the greatest, black where nothing is;
+    /// * depth, Z alone, is white for the least and almost black for the greatest, black where nothing is; what is much farther
+    ///   away than half of the picture, as ends of infinite planes are, is darker still and takes no range from the rest;
     /// * whole numbers that name things have a false color each, black for 0, which names nothing;
     /// * other numbers, as counts, are in false colors from 0, black, to the greatest, pale yellow.
     ///
@@ -107,15 +108,28 @@ fn between_bounds(vector: [&Samples; 3]) -> Vec<Rgb> {
 }
 
 fn depths(depth: &Samples) -> Vec<Rgb> {
-    /// What is farthest away is not yet as black as nothing.
+    /// The end of the range is not yet as black as nothing, nor is what lies beyond.
     const FARTHEST: f32 = 0.05;
-    let bounds = match bounds(depth) {
-        (least, most) if least < most => (least, most),
+    let (least, far) = match bounds(depth) {
+        (least, most) if least < most => (least, most.min(far(depth, least))),
         // All of it is nearest.
         (least, _) => (least, f32::MAX),
     };
-    let shown = |z: f32| if z.is_finite() { 1.0 - (1.0 - FARTHEST) * share(z, bounds) } else { 0.0 };
+    let shown = |z: f32| match z {
+        z if !z.is_finite() => 0.0,
+        z if z <= far => 1.0 - (1.0 - FARTHEST) * share(z, (least, far)),
+        z => FARTHEST * (0.2 + 0.8 * ((far - least) / (z - least)).clamp(0.0, 1.0)),
+    };
     numbers(depth).map(|z| Rgb::gray(shown(z))).collect()
+}
+
+/// How far the range of depths is to go: four times as far as the middle one of all is behind the nearest.
+fn far(depth: &Samples, least: f32) -> f32 {
+    let mut finite: Vec<f32> = numbers(depth).filter(|z| z.is_finite()).collect();
+    let middle = finite.len() / 2;
+    let (_, median, _) = finite.select_nth_unstable_by(middle, f32::total_cmp);
+    let far = least + 4.0 * (*median - least);
+    if far > least { far } else { f32::MAX }
 }
 
 fn amounts(samples: &Samples) -> Vec<Rgb> {
@@ -199,6 +213,10 @@ mod tests {
         assert!((shown[0] - 1.0).abs() < 1e-6 && (shown[1] - 0.05).abs() < 1e-6 && shown[3] == 0.0, "{shown:?}");
         assert!((shown[2] - 0.525).abs() < 1e-6);
         assert_eq!(grays(vec![4.0, 4.0]), [1.0, 1.0]);
+        // A plane without end under what stands on it takes no range from that.
+        let shown = grays(vec![2.0, 3.0, 4.0, 5.0, 1e3, 1e30, f32::INFINITY]);
+        assert!(shown[0] - shown[3] > 0.2 && shown[4] < 0.05 && shown[5] > 0.0 && shown[5] < shown[4], "{shown:?}");
+        assert!(shown.windows(2).all(|pair| pair[0] > pair[1]), "{shown:?}");
         assert_eq!(grays(vec![f32::INFINITY]), [0.0]);
     }
 

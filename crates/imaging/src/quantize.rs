@@ -15,12 +15,42 @@ pub(crate) fn byte_from_linear(linear: f32, transfer: Transfer) -> u8 {
 
 /// The bytes of these colours, three each.
 pub(crate) fn bytes_from_linear(pixels: &[Rgb], transfer: Transfer) -> Vec<u8> {
-    let quantizer = ByteQuantizer::new(transfer);
-    let mut bytes = Vec::with_capacity(pixels.len() * 3);
-    for pixel in pixels {
-        bytes.extend_from_slice(&pixel.to_array().map(|v| quantizer.byte(v)));
-    }
+    let mut bytes = vec![0; pixels.len() * 3];
+    ByteQuantizer::new(transfer).put(pixels, &mut bytes);
     bytes
+}
+
+/// Turns linear light into bytes quickly.
+pub(crate) enum ByteQuantizer {
+    /// By the curve of sRGB.
+    Srgb(SrgbQuantizer),
+    /// As it is, which is quick.
+    Linear,
+}
+
+impl ByteQuantizer {
+    pub(crate) fn new(transfer: Transfer) -> ByteQuantizer {
+        match transfer {
+            Transfer::Srgb => ByteQuantizer::Srgb(SrgbQuantizer::new()),
+            Transfer::Linear => ByteQuantizer::Linear,
+        }
+    }
+
+    /// Puts the bytes of some colours, three each.
+    #[inline]
+    pub(crate) fn put(&self, pixels: &[Rgb], bytes: &mut [u8]) {
+        match self {
+            ByteQuantizer::Srgb(srgb) => put_each(pixels, bytes, |v| srgb.byte(v)),
+            ByteQuantizer::Linear => put_each(pixels, bytes, |v| byte_from_linear(v, Transfer::Linear)),
+        }
+    }
+}
+
+#[inline(always)]
+fn put_each(pixels: &[Rgb], bytes: &mut [u8], byte: impl Fn(f32) -> u8) {
+    for (pixel, bytes) in pixels.iter().zip(bytes.as_chunks_mut::<3>().0) {
+        *bytes = [byte(pixel.r), byte(pixel.g), byte(pixel.b)];
+    }
 }
 
 /// The 16-bit number stored for an amount of linear light.
@@ -31,8 +61,14 @@ pub(crate) fn word_from_linear(linear: f32, transfer: Transfer) -> u16 {
 /// Below this every sRGB byte is 0: the first step, to 1, is at 1.5·10⁻⁴.
 const SMALLEST: f32 = 1.0 / 8192.0;
 
+/// The largest float below 1, which is white.
+const LARGEST: f32 = 1.0_f32.next_down();
+
 /// Floats that agree in all but their last 16 bits share a bucket: 128 buckets for each power of two.
 const BUCKET_BITS: u32 = 16;
+
+/// From [`SMALLEST`] up to 1. No two steps share one.
+const BUCKETS: usize = ((1.0_f32.to_bits() - SMALLEST.to_bits()) >> BUCKET_BITS) as usize;
 
 /// The floats of one bucket become `below`, from `step` on `below + 1`.
 #[derive(Clone, Copy)]
@@ -41,33 +77,30 @@ struct Bucket {
     below: u8,
 }
 
-/// Turns linear light into bytes quickly.
-struct ByteQuantizer {
-    /// Empty for [`Transfer::Linear`], which is quick as it is.
-    buckets: Vec<Bucket>,
+/// Turns linear light into bytes of the sRGB curve quickly.
+pub(crate) struct SrgbQuantizer {
+    buckets: Box<[Bucket; BUCKETS]>,
 }
 
-impl ByteQuantizer {
-    fn new(transfer: Transfer) -> ByteQuantizer {
-        let buckets = match transfer {
-            Transfer::Srgb => srgb_buckets(),
-            Transfer::Linear => Vec::new(),
+impl SrgbQuantizer {
+    fn new() -> SrgbQuantizer {
+        let steps = srgb_steps();
+        let bucket = |index: usize| {
+            let first = f32::from_bits(SMALLEST.to_bits() + ((index as u32) << BUCKET_BITS));
+            let below = steps.partition_point(|&step| step <= first);
+            Bucket { step: steps.get(below).copied().unwrap_or(f32::INFINITY), below: below as u8 }
         };
-        ByteQuantizer { buckets }
+        SrgbQuantizer { buckets: Box::new(std::array::from_fn(bucket)) }
     }
 
     /// The same byte as [`byte_from_linear`], for every float.
+    #[inline(always)]
     fn byte(&self, linear: f32) -> u8 {
-        if self.buckets.is_empty() {
-            return byte_from_linear(linear, Transfer::Linear);
-        }
-        if linear.is_nan() || linear < SMALLEST {
-            return 0;
-        }
-        match self.buckets.get(bucket_index(linear)) {
-            Some(bucket) => bucket.below + u8::from(linear >= bucket.step),
-            None => 255,
-        }
+        // The first bucket is that of black, also for NaN, and the last that of white.
+        let linear = if linear > SMALLEST { linear } else { SMALLEST };
+        let linear = if linear < LARGEST { linear } else { LARGEST };
+        let bucket = self.buckets[bucket_index(linear).min(BUCKETS - 1)];
+        bucket.below + u8::from(linear >= bucket.step)
     }
 }
 
@@ -76,26 +109,18 @@ fn bucket_index(linear: f32) -> usize {
     ((linear.to_bits() - SMALLEST.to_bits()) >> BUCKET_BITS) as usize
 }
 
-/// The buckets from [`SMALLEST`] up to 1. No two steps share one.
-fn srgb_buckets() -> Vec<Bucket> {
-    let steps = srgb_steps();
-    (SMALLEST.to_bits()..1f32.to_bits())
-        .step_by(1 << BUCKET_BITS)
-        .map(|first| {
-            let below = byte_from_linear(f32::from_bits(first), Transfer::Srgb);
-            Bucket { step: steps.get(usize::from(below)).copied().unwrap_or(f32::INFINITY), below }
-        })
-        .collect()
-}
-
-/// For each byte from 1 to 255 the smallest float that becomes it, found by bisecting the bits of the floats.
+/// For each byte from 1 to 255 the smallest float that becomes it, found by bisecting the bits of the floats: of those near
+/// the one that the inverse of the curve gives, if it is one of them.
 fn srgb_steps() -> Vec<f32> {
     (1..=255u8)
         .map(|byte| {
-            let (mut low, mut high) = (0, 1f32.to_bits());
+            let reaches = |bits: u32| byte_from_linear(f32::from_bits(bits), Transfer::Srgb) >= byte;
+            let about = Transfer::Srgb.linear_from_stored((f32::from(byte) - 0.5) / 255.0).to_bits();
+            let near = (about - 16, about + 16);
+            let (mut low, mut high) = if !reaches(near.0) && reaches(near.1) { near } else { (0, 1f32.to_bits()) };
             while high - low > 1 {
                 let middle = low + (high - low) / 2;
-                if byte_from_linear(f32::from_bits(middle), Transfer::Srgb) >= byte {
+                if reaches(middle) {
                     high = middle;
                 } else {
                     low = middle;
@@ -110,9 +135,9 @@ fn srgb_steps() -> Vec<f32> {
 mod tests {
     use super::*;
 
-    fn check(quantizer: &ByteQuantizer, transfer: Transfer, bits: u32) {
+    fn check(quantizer: &SrgbQuantizer, bits: u32) {
         let x = f32::from_bits(bits);
-        assert_eq!(quantizer.byte(x), byte_from_linear(x, transfer), "{x:e} ({bits:#x}), {transfer:?}");
+        assert_eq!(quantizer.byte(x), byte_from_linear(x, Transfer::Srgb), "{x:e} ({bits:#x})");
     }
 
     #[test]
@@ -127,34 +152,32 @@ mod tests {
 
     #[test]
     fn agrees_with_the_definition_around_every_step() {
-        let quantizer = ByteQuantizer::new(Transfer::Srgb);
+        let quantizer = SrgbQuantizer::new();
         for step in srgb_steps() {
             for bits in step.to_bits() - 2000..=step.to_bits() + 2000 {
-                check(&quantizer, Transfer::Srgb, bits);
+                check(&quantizer, bits);
             }
         }
     }
 
     #[test]
     fn agrees_with_the_definition_over_all_floats() {
-        for transfer in [Transfer::Srgb, Transfer::Linear] {
-            let quantizer = ByteQuantizer::new(transfer);
-            (0..=u32::MAX).step_by(4093).for_each(|bits| check(&quantizer, transfer, bits));
-        }
+        let quantizer = SrgbQuantizer::new();
+        (0..=u32::MAX).step_by(4093).for_each(|bits| check(&quantizer, bits));
     }
 
     #[test]
     fn agrees_with_the_definition_for_every_float_from_black_to_white() {
-        let quantizer = ByteQuantizer::new(Transfer::Srgb);
-        (0..=1f32.to_bits()).for_each(|bits| check(&quantizer, Transfer::Srgb, bits));
+        let quantizer = SrgbQuantizer::new();
+        (0..=1f32.to_bits()).for_each(|bits| check(&quantizer, bits));
     }
 
     #[test]
     fn out_of_range_is_clamped_and_nan_is_black() {
         for transfer in [Transfer::Srgb, Transfer::Linear] {
-            let quantizer = ByteQuantizer::new(transfer);
-            let bytes = [-1.0, -0.0, 1.0, 7.0, f32::INFINITY, f32::NEG_INFINITY, f32::NAN].map(|x| quantizer.byte(x));
-            assert_eq!(bytes, [0, 0, 255, 255, 255, 0, 0]);
+            let values = [-1.0, -0.0, 1.0, 7.0, f32::INFINITY, f32::NEG_INFINITY, f32::NAN, 0.0, 1.0];
+            let colors: Vec<Rgb> = values.as_chunks().0.iter().map(|&[r, g, b]| Rgb::new(r, g, b)).collect();
+            assert_eq!(bytes_from_linear(&colors, transfer), [0, 0, 255, 255, 255, 0, 0, 0, 255]);
             let words = [-1.0, 1.0, 7.0, f32::INFINITY, f32::NAN].map(|x| word_from_linear(x, transfer));
             assert_eq!(words, [0, 65535, 65535, 65535, 0]);
         }

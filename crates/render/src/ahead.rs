@@ -8,8 +8,8 @@ use crate::compile::{CompiledScene, OPAQUE};
 use crate::visibility::SHORT_OF_LIGHT;
 use durer_geometry::{Goal, Hit, LANES, Packet, Ray, Seen, Sight, Sights, Surface};
 use durer_math::DVec2;
-use plain::Plain;
 pub(crate) use plain::Sum;
+use plain::{Plain, View};
 
 /// With more lights than this, most are looked at one by one.
 const MOST_LIGHTS: usize = 16;
@@ -37,11 +37,12 @@ impl Ahead {
     /// Looks through at most eight points of the picture, in pixels, where that [pays](Ahead::pays).
     pub(crate) fn look(&mut self, scene: &CompiledScene, points: &[DVec2]) {
         let Some(eye) = scene.eye_vantage.as_ref() else { return };
-        let Some(rays) = scene.camera.rays(&scene.world, points) else { return };
-        scene.world.see(eye, &rays, &mut self.seen);
-        self.rays = Some(rays);
+        let Some(pinhole) = scene.camera.pinhole() else { return };
+        let rays = self.rays.get_or_insert_default();
+        scene.world.rays_of(&pinhole, &scene.camera.on_screen(points), points.len(), rays);
+        scene.world.see(eye, rays, &mut self.seen);
         if let Some(fog) = &scene.fog {
-            fog.visible_each(self.seen.distances(), &mut self.visible);
+            self.visible = fog.visible_each(scene.world.simd(), self.seen.distances());
         }
         self.sights.resize_with(scene.lights.len().min(MOST_LIGHTS), || None);
         let lights = scene.lights.iter().zip(&scene.light_vantages);
@@ -54,7 +55,14 @@ impl Ahead {
                 None => *sights = None,
             }
         }
-        self.plain.find(scene, &self.seen, &self.sights, &self.visible);
+        let (seen, sights, visible) = (&self.seen, &self.sights, &self.visible);
+        self.plain.find(scene, &View { rays, seen, sights, visible });
+    }
+
+    /// All that arrives along one of the rays, if that is known already; it is finite.
+    #[inline(always)]
+    pub(crate) fn sum(&self, lane: usize) -> Option<Sum> {
+        self.plain.sum(lane)
     }
 
     /// What one of the rays sees.
@@ -78,12 +86,6 @@ impl SeenAhead<'_> {
             Some(rays) => rays.ray(self.lane),
             None => scene.camera.ray(at),
         }
-    }
-
-    /// All that arrives along it, if that is known already.
-    #[inline]
-    pub(crate) fn sum(&self) -> Option<Sum> {
-        self.ahead.plain.sum(self.lane)
     }
 
     /// What it hits first.

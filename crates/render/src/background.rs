@@ -4,12 +4,11 @@ use crate::textures::Environment;
 use durer_math::{DVec3, Rgb};
 use durer_scene::Scene;
 
-/// What is seen in a direction, and what it takes to know how often that is aimed at.
+/// A direction, looked up.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Look {
     /// Unit length.
     pub(crate) direction: DVec3,
-    pub(crate) light: Rgb,
     /// Where it is in the picture, if the background is one.
     pub(crate) place: [f64; 2],
 }
@@ -40,16 +39,20 @@ impl Background {
         }
     }
 
-    /// A look in a direction of unit length.
+    /// Looks up a direction of unit length.
     pub(crate) fn look(&self, direction: DVec3) -> Look {
+        let place = match self {
+            Background::Color(_) | Background::Gradient { .. } => [0.0; 2],
+            Background::Image(map) => map.place(direction),
+        };
+        Look { direction, place }
+    }
+
+    /// What is seen there.
+    pub(crate) fn light(&self, look: &Look) -> Rgb {
         match self {
-            Background::Color(_) | Background::Gradient { .. } => {
-                Look { direction, light: self.seen(direction), place: [0.0; 2] }
-            }
-            Background::Image(map) => {
-                let place = map.place(direction);
-                Look { direction, light: map.seen_at(place), place }
-            }
+            Background::Color(_) | Background::Gradient { .. } => self.seen(look.direction),
+            Background::Image(map) => map.seen_at(look.place),
         }
     }
 

@@ -4,7 +4,7 @@ mod lens;
 
 use self::lens::Lens;
 pub(crate) use self::lens::concentric_disc;
-use durer_geometry::{Bounds, LANES, Packet, Pinhole, Ray, World};
+use durer_geometry::{Bounds, LANES, Pinhole, Ray};
 use durer_math::{DVec2, DVec3, functions::tan};
 use durer_scene as scene;
 
@@ -149,17 +149,23 @@ impl Camera {
         Ray { origin: start + offset, direction: (in_focus - offset).normalize() }
     }
 
-    /// The rays through at most eight points of the picture, if they start in one point.
+    /// How rays go that all start in one point, if they do.
     #[inline]
-    pub(crate) fn rays(&self, world: &World, points: &[DVec2]) -> Option<Packet> {
-        let eye = self.eye()?;
-        let (mut across, mut up) = ([0.0; LANES], [0.0; LANES]);
-        for lane in 0..LANES {
-            let at = points[lane.min(points.len() - 1)];
-            (across[lane], up[lane]) = (at.x * self.scale.x - 1.0, 1.0 - at.y * self.scale.y);
-        }
-        let pinhole = Pinhole { eye, forward: self.forward, right: self.right, up: self.up };
-        Some(world.rays_of(&pinhole, &across, &up, points.len()))
+    pub(crate) fn pinhole(&self) -> Option<Pinhole> {
+        let Camera { forward, right, up, .. } = *self;
+        self.eye().map(|eye| Pinhole { eye, forward, right, up })
+    }
+
+    /// Where one to eight points of the picture are as `right` and `up` are measured: all of the one, then all of the other.
+    /// The last is repeated.
+    #[inline]
+    pub(crate) fn on_screen(&self, points: &[DVec2]) -> [[f64; LANES]; 2] {
+        let last = points.len().saturating_sub(1);
+        let points: [DVec2; LANES] = match points.try_into() {
+            Ok(points) => points,
+            Err(_) => std::array::from_fn(|lane| points[lane.min(last)]),
+        };
+        [points.map(|at| at.x * self.scale.x - 1.0), points.map(|at| 1.0 - at.y * self.scale.y)]
     }
 
     /// From the middle of the picture to a point of it, as `right` and `up` are measured.

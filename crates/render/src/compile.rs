@@ -140,9 +140,18 @@ pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
         settings: scene.render,
     };
     if looks_for_light(&scene.render) {
-        compiled.emitters = Emitters::of(&compiled);
+        compiled.emitters = Emitters::of(&compiled, &mean_emission(&compiled.materials, scene));
     }
     compiled
+}
+
+/// The mean luminance of the emission of each material, wherever its texture is taken from; the default material's is last.
+fn mean_emission(materials: &[Material], scene: &Scene) -> Vec<f64> {
+    let mut means = Means::new(scene);
+    let mut mean = |emission: &durer_scene::Emission| {
+        f64::from((means.of(emission.color) * emission.strength).luminance()).max(0.0)
+    };
+    materials.iter().map(|material| material.emission.as_ref().map_or(0.0, &mut mean)).collect()
 }
 
 /// True if there is use for knowing all that gives light.

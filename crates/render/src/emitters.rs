@@ -74,16 +74,18 @@ const SKY: usize = 2;
 const INFORMED: f64 = 0.75;
 
 impl Emitters {
-    /// All that gives light in a scene that is complete but for this.
-    pub(crate) fn of(scene: &CompiledScene) -> Emitters {
-        let (shapes, mut items) = Shapes::of(scene);
+    /// All that gives light in a scene that is complete but for this. `means` are the mean luminances that the emission of each
+    /// material has all over its texture.
+    pub(crate) fn of(scene: &CompiledScene, means: &[f64]) -> Emitters {
+        let (shapes, mut items) = Shapes::of(scene, means);
         let (mut near_lamps, mut far_lamps, mut far_irradiance) = (Vec::new(), Vec::new(), Vec::new());
         let mut sum = 0.0;
         for (index, light) in (0_u32..).zip(&scene.lights) {
             let (brightness, id) = (light.luminance(), (shapes.len() + near_lamps.len()) as u32);
             if let Some((position, radius)) = light.place() {
                 let bounds = Bounds { min: position, max: position }.widened(radius);
-                if let Some(item) = Item::new(&bounds, brightness, Cone::ALL, id) {
+                let cone = light.cones().map_or(Cone::ALL, |(axis, [inner, outer])| Cone::of_spot(axis, inner, outer));
+                if let Some(item) = Item::new(&bounds, brightness, cone, id) {
                     items.push(item);
                     near_lamps.push(index);
                     continue;
@@ -152,7 +154,13 @@ impl Emitters {
     }
 
     fn sample_sky(&self, scene: &CompiledScene, receiver: &Receiver, at: DVec2) -> Option<LightSample> {
-        let (Look { direction, light, .. }, pdf) = self.sky.as_ref()?.sample(&scene.background, receiver, at)?;
+        let (look, pdf) = self.sky.as_ref()?.sample(&scene.background, receiver, at)?;
+        let direction = look.direction;
+        if !receiver.passes && direction.dot(receiver.normal) <= 0.0 {
+            // There is no need to wait for a pixel from memory.
+            return None;
+        }
+        let light = scene.background.light(&look);
         Some(LightSample { direction, distance: f64::INFINITY, light, pdf, is_point: false, lamp: None })
     }
 

@@ -74,6 +74,7 @@ pub struct BadSample {
 pub(crate) struct Tile {
     pub(crate) region: Region,
     pub(crate) pixels: Vec<Rgb>,
+    /// None if no pixel was divided.
     pub(crate) depths: Vec<u8>,
     pub(crate) account: Account,
 }
@@ -82,8 +83,7 @@ impl Tile {
     /// One without pixels as yet.
     pub(crate) fn new(region: Region) -> Tile {
         let length = region.pixels() as usize;
-        let (pixels, depths) = (Vec::with_capacity(length), Vec::with_capacity(length));
-        Tile { region, pixels, depths, account: Account::default() }
+        Tile { region, pixels: Vec::with_capacity(length), depths: Vec::new(), account: Account::default() }
     }
 }
 
@@ -170,14 +170,18 @@ impl Film {
         self.finished_pixels = self.region.pixels();
     }
 
-    /// Puts a finished rectangle on the film, which begins at the corner of a tile and ends at the edges of tiles.
+    /// Puts a finished rectangle on the film, which begins at the corner of a tile and ends at the edges of tiles. Nothing of
+    /// it is there before.
     pub(crate) fn put(&mut self, tile: &Tile) {
         let Region { x, y, width, .. } = tile.region;
-        let rows = tile.pixels.chunks(width as usize).zip(tile.depths.chunks(width as usize));
-        for (row, (colors, depths)) in (y - self.region.y..).zip(rows) {
-            let start = row as usize * self.region.width as usize + (x - self.region.x) as usize;
-            self.pixels[start..start + width as usize].copy_from_slice(colors);
-            self.depths[start..start + width as usize].copy_from_slice(depths);
+        let width = width as usize;
+        let first = (y - self.region.y) as usize * self.region.width as usize + (x - self.region.x) as usize;
+        let starts = || (first..).step_by(self.region.width as usize);
+        for (start, colors) in starts().zip(tile.pixels.chunks(width)) {
+            self.pixels[start..start + width].copy_from_slice(colors);
+        }
+        for (start, depths) in starts().zip(tile.depths.chunks(width)) {
+            self.depths[start..start + width].copy_from_slice(depths);
         }
         let across = self.region.width.div_ceil(TILE);
         for part in tile.region.tiles() {

@@ -3,7 +3,7 @@
 //! Rays of neighboring pixels go nearly the same way, which the tree makes use of. Only what is sampled for certain is
 //! looked up: what anti-aliasing asks for beyond that depends on colors, which are not there yet.
 
-use crate::ahead::Ahead;
+use crate::ahead::{Ahead, Sum};
 use crate::antialias::Antialias;
 use crate::compile::CompiledScene;
 use crate::eye::begin;
@@ -46,6 +46,21 @@ impl<'a> FirstRays<'a> {
             FirstRays::Seen { seen, first, samples } => {
                 let index = first + taken;
                 (taken < samples).then(|| Known::Seen(seen[index / LANES].of(index % LANES)))
+            }
+        }
+    }
+}
+
+impl FirstRays<'_> {
+    /// All that arrives along one of them, if that is known: it is finite.
+    #[inline(always)]
+    pub(crate) fn sum(&self, taken: usize) -> Option<Sum> {
+        match *self {
+            FirstRays::Hits(_) => None,
+            FirstRays::Seen { samples, .. } if taken >= samples => None,
+            FirstRays::Seen { seen, first, .. } => {
+                let index = first + taken;
+                seen[index / LANES].sum(index % LANES)
             }
         }
     }

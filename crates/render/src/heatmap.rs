@@ -50,7 +50,7 @@ fn count(scene: &CompiledScene, tile: Region) -> Vec<Work> {
 
 fn count_pixel(scene: &CompiledScene, corner: DVec2) -> Work {
     let mut counter = Counter { scene, work: Work::default() };
-    Grid { n: 1 }.pixel(corner, &mut counter);
+    Grid::new(1).pixel(corner, &mut counter);
     counter.work
 }
 

@@ -20,6 +20,7 @@ mod frame;
 mod heatmap;
 mod holes;
 mod integrators;
+mod lanes;
 mod lights;
 mod materials;
 mod media;

@@ -107,8 +107,13 @@ impl Light {
 
     /// For a spot, its axis and the cosine of the angle to it beyond which it gives no light.
     pub(crate) fn cone(&self) -> Option<(DVec3, f64)> {
+        self.cones().map(|(axis, [_, outer])| (axis, outer))
+    }
+
+    /// For a spot, its axis and the cosines of the angles to it up to which it gives full light, and beyond which none.
+    pub(crate) fn cones(&self) -> Option<(DVec3, [f64; 2])> {
         match self.kind {
-            Kind::Spot { axis, cone, .. } => Some((axis, cone.outer)),
+            Kind::Spot { axis, cone, .. } => Some((axis, [cone.inner, cone.outer])),
             Kind::Point { .. } | Kind::Directional { .. } => None,
         }
     }

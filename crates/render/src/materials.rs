@@ -20,6 +20,8 @@ pub(crate) struct Material {
     pub(crate) attenuation: Option<Rgb>,
     /// Light that the surface gives off by itself, if any.
     pub(crate) emission: Option<durer_scene::Emission>,
+    /// True if that is its own color under ambient light, and nothing else can be seen of it.
+    pub(crate) is_unlit: bool,
     /// How much of the surface is there; `None` if all of it is, everywhere.
     pub(crate) opacity: Option<Paint>,
     /// What passes of light where no texture decides about that.
@@ -54,6 +56,8 @@ impl Material {
         let exponent =
             |a: &durer_scene::Attenuation| a.color.map(|c| (functions::ln(f64::from(c)) / a.distance) as f32);
         let classic = &whitted(&material.kind, means);
+        let own_emission = Some(material.emission).filter(|emission| !emission.is_black());
+        let unlit = unlit(&material.kind, integrator).filter(|_| own_emission.is_none());
         let mut compiled = Material {
             color: classic.color,
             ambient: classic.ambient,
@@ -65,7 +69,8 @@ impl Material {
             ior: classic.ior,
             fresnel: classic.fresnel,
             attenuation: classic.attenuation.as_ref().map(exponent),
-            emission: Some(material.emission).filter(|emission| !emission.is_black()),
+            emission: own_emission.or(unlit),
+            is_unlit: unlit.is_some(),
             opacity: Some(material.opacity).filter(|opacity| *opacity != Paint::Color(Rgb::WHITE)),
             passed_if_even: classic.transparency,
             passage: Passage::of(&material.kind, integrator),
@@ -185,6 +190,16 @@ impl Passage {
             }
         }
     }
+}
+
+/// Classic surfaces that show nothing but ambient light are to look the same whatever lights them: signs, what other programs
+/// have drawn with its light, KHR_materials_unlit of glTF. Path tracing has no ambient light, so there they glow as bright.
+fn unlit(kind: &MaterialKind, integrator: Integrator) -> Option<durer_scene::Emission> {
+    let (MaterialKind::Classic(classic), Integrator::Path { .. }) = (kind, integrator) else { return None };
+    let gives_back = classic.diffuse > 0.0
+        || [classic.specular, classic.reflection, classic.transparency].iter().any(|part| !part.is_black());
+    let emission = durer_scene::Emission { color: classic.color, strength: classic.ambient, sides: Sides::Both };
+    (!gives_back && !emission.is_black()).then_some(emission)
 }
 
 /// True if the parts of a classic surface may add up to more than it gets, whatever colors shapes bring.

@@ -44,41 +44,54 @@ struct Gathered<'a, I> {
     pixel: Pixel,
 }
 
-impl<I: Integrator> Gathered<'_, I> {
-    #[inline(never)]
-    fn trace(&mut self, at: DVec2, known: Known<'_>) -> Rgb {
-        let (ray, sampler) = match known.seen() {
-            Some(seen) => (seen.ray(self.scene, at), Sampler::of_place(self.scene.settings.seed, at)),
-            None => begin(self.scene, at),
-        };
-        self.integrator.radiance(self.scene, &ray, known, &sampler, &mut self.account.rays)
+/// What arrives along the eye's ray through a point; `None` if that is not finite. Apart from what is done for every sample,
+/// which then is little enough to stay in registers.
+#[inline(never)]
+fn trace(
+    (scene, integrator): (&CompiledScene, &impl Integrator),
+    at: DVec2,
+    known: Option<Known<'_>>,
+    account: &mut Account,
+) -> Option<Rgb> {
+    let known = match (known, &scene.eye_vantage) {
+        (Some(known), _) => known,
+        (None, Some(vantage)) => Known::Vantage(vantage),
+        (None, None) => Known::Nothing,
+    };
+    let (ray, sampler) = match known.seen() {
+        Some(seen) => (seen.ray(scene, at), Sampler::of_place(scene.settings.seed, at)),
+        None => begin(scene, at),
+    };
+    let color = integrator.radiance(scene, &ray, known, &sampler, &mut account.rays);
+    if !color.is_finite() {
+        account.bad_sample(at);
+        return None;
     }
+    Some(color)
 }
 
 impl<I: Integrator> Samples for Gathered<'_, I> {
+    #[inline(always)]
     fn take(&mut self, at: DVec2) -> Sample {
-        let known = match (self.first_rays.known(self.taken as usize), &self.scene.eye_vantage) {
-            (Some(known), _) => known,
-            (None, Some(vantage)) => Known::Vantage(vantage),
-            (None, None) => Known::Nothing,
-        };
-        let mut color = match known.seen().and_then(|seen| seen.sum()) {
+        let index = self.taken;
+        self.taken += 1;
+        let color = match self.first_rays.sum(index as usize) {
             Some(sum) => {
                 let rays = &mut self.account.rays;
                 (rays.eye, rays.shadow) = (rays.eye + 1, rays.shadow + sum.shadow_rays);
                 sum.color
             }
-            None => self.trace(at, known),
+            None => {
+                let known = self.first_rays.known(index as usize);
+                let color = trace((self.scene, self.integrator), at, known, self.account);
+                self.pixel.has_bad_samples |= color.is_none();
+                color.unwrap_or(Rgb::BLACK)
+            }
         };
-        if !color.is_finite() {
-            self.account.bad_sample(at);
-            self.pixel.has_bad_samples = true;
-            color = Rgb::BLACK;
-        }
-        self.taken += 1;
-        Sample { color, index: self.taken - 1 }
+        Sample { color, index }
     }
 
+    #[inline(always)]
     fn keep(&mut self, weight: f32, sample: Sample) {
         self.pixel.color += sample.color * weight;
     }

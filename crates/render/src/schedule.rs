@@ -254,8 +254,8 @@ pub(crate) fn with_antialias<W: WithAntialias>(scene: &CompiledScene, work: W) -
     }
     let (filter, picture) = (scene.settings.filter, scene.picture_size());
     match scene.settings.antialias {
-        durer_scene::Antialias::None => choose(work, filter, Grid { n: 1 }),
-        durer_scene::Antialias::Grid { n } => choose(work, filter, Grid { n }),
+        durer_scene::Antialias::None => choose(work, filter, Grid::new(1)),
+        durer_scene::Antialias::Grid { n } => choose(work, filter, Grid::new(n)),
         durer_scene::Antialias::Recursive { threshold, max_depth } => {
             choose(work, filter, Recursive { threshold, max_depth })
         }
@@ -402,13 +402,20 @@ fn render_tile<A: Antialias>(scene: &CompiledScene, region: Region, antialias: &
     let mut first_hits = FirstHits::default();
     for part in FirstHits::parts(scene, region) {
         first_hits.find(scene, antialias, part);
-        part.pixel_places().enumerate().for_each(|(index, (x, y))| {
-            let known = first_hits.of_pixel(index);
-            let pixel = render_pixel(scene, (&integrator, antialias), (x, y), known, &mut tile.account);
-            let color = if pixel.has_bad_samples { without_bad_samples(scene, antialias, (x, y)) } else { pixel.color };
-            tile.pixels.push(color);
-            tile.depths.push(pixel.depth);
-        });
+        for y in part.y..part.y + part.height {
+            let (row, row_of_part) = ((y - region.y) * region.width, (y - part.y) * part.width);
+            // By `extend`, which asks only once whether there is room.
+            tile.pixels.extend((0..part.width).map(|column| {
+                let known = first_hits.of_pixel((row_of_part + column) as usize);
+                let (x, account) = (part.x + column, &mut tile.account);
+                let pixel = render_pixel(scene, (&integrator, antialias), (x, y), known, account);
+                if pixel.depth > 0 {
+                    tile.depths.resize(region.pixels() as usize, 0);
+                    tile.depths[(row + column) as usize] = pixel.depth;
+                }
+                if pixel.has_bad_samples { without_bad_samples(scene, antialias, (x, y)) } else { pixel.color }
+            }));
+        }
     }
     tile
 }

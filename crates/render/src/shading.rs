@@ -36,12 +36,32 @@ pub(crate) struct Shading<'a> {
     pub(crate) direction: DVec3,
     /// The surface's unit normal on the side that the ray came from: rays start on either side of the surface by it.
     face: DVec3,
-    /// The normal that a mesh wants, if it is another. The ray came against it, too.
-    smooth: Option<DVec3>,
+    /// What a mesh or relief wants, if its normal is another.
+    smooth: Option<Smooth>,
     /// True if the ray came from the side that the surface's own normal points to.
     pub(crate) from_outside: bool,
     /// True if the surface bounds a medium.
     pub(crate) bounds_medium: bool,
+}
+
+/// A surface that is shaded as if it were another.
+#[derive(Clone, Copy)]
+struct Smooth {
+    /// The unit normal by which it is shaded. The ray came against it.
+    normal: DVec3,
+    /// The same without relief.
+    ground: DVec3,
+    /// The normal of the plane from behind which no light comes: the ground's, or the face's.
+    horizon: DVec3,
+    /// From the surface to where rays start that come back from it.
+    lift: DVec3,
+}
+
+impl Smooth {
+    /// As it is where nothing can be said but the normal.
+    fn flat(normal: DVec3, face: DVec3) -> Smooth {
+        Smooth { normal, ground: normal, horizon: face, lift: DVec3::ZERO }
+    }
 }
 
 impl<'a> Shading<'a> {
@@ -81,9 +101,13 @@ impl<'a> Shading<'a> {
         if material.glows(shading.from_outside) {
             shading.emission = textured.emission(material);
         }
-        shading.smooth = smooth_normal(scene, surface, hit, shading.face, ray.direction);
-        if let Some(relief) = &material.relief {
-            shading.smooth = relief::normal(relief, &textured, &shading).or(shading.smooth);
+        shading.smooth = smooth_normal(scene, surface, hit, shading.face, ray.direction)
+            .map(|normal| rounded(scene, &shading, normal).unwrap_or(Smooth::flat(normal, shading.face)));
+        if let Some(relief) = &material.relief
+            && let Some(normal) = relief::normal(relief, &textured, &shading)
+        {
+            let ground = shading.smooth.unwrap_or(Smooth::flat(shading.face, shading.face));
+            shading.smooth = Some(Smooth { normal, ..ground });
         }
         shading
     }
@@ -125,12 +149,28 @@ impl<'a> Shading<'a> {
     /// The unit normal by which light falls and is reflected and refracted, on the side that the ray came from.
     #[inline]
     pub(crate) fn normal(&self) -> DVec3 {
-        self.smooth.unwrap_or(self.face)
+        match &self.smooth {
+            Some(smooth) => smooth.normal,
+            None => self.face,
+        }
+    }
+
+    /// The normal of the plane from behind which no light comes to the side that the ray came from.
+    #[inline]
+    fn horizon(&self) -> DVec3 {
+        match &self.smooth {
+            Some(smooth) => smooth.horizon,
+            None => self.face,
+        }
     }
 
     /// The point from which rays start on the side that the ray came from.
     pub(crate) fn origin_back(&self) -> DVec3 {
-        self.surface.point + self.face * self.surface.offset
+        let point = self.surface.point + self.face * self.surface.offset;
+        match &self.smooth {
+            Some(smooth) => point + smooth.lift,
+            None => point,
+        }
     }
 
     /// The ray from here in the mirrored direction, which stays on the side that the ray came from.
@@ -141,23 +181,29 @@ impl<'a> Shading<'a> {
     /// A ray from here on the side that the ray came from, in this direction or, where that would come out behind, its
     /// mirror image.
     pub(crate) fn ray_back(&self, direction: DVec3) -> Ray {
-        Ray { origin: self.origin_back(), direction: self.kept_on(Side::Front, direction) }
+        Ray { origin: self.origin_back(), direction: self.kept_on(Side::Front, self.horizon(), direction) }
+    }
+
+    /// True if who goes past the surface, of which so much is there, goes to the other side of its boundary: no medium begins
+    /// where nothing of a surface is, but one that the ray is in ends; and what is but partly there counts as there.
+    pub(crate) fn crosses_past(&self, opacity: Rgb) -> bool {
+        self.bounds_medium && !(self.from_outside && opacity.is_black())
     }
 
     /// True if a direction leads to the side of the surface that the ray did not come from.
     pub(crate) fn is_on_far_side(&self, direction: DVec3) -> bool {
-        direction.dot(self.face) < 0.0
+        direction.dot(self.horizon()) < 0.0
     }
 
     /// A ray from here on the far side, in this direction or, where that would come back, its mirror image.
     pub(crate) fn ray_on(&self, direction: DVec3) -> Ray {
-        let direction = self.kept_on(Side::Back, direction);
+        let direction = self.kept_on(Side::Back, self.face, direction);
         Ray { origin: self.surface.point - self.face * self.surface.offset, direction }
     }
 
-    /// A direction found by the normal, on the side of the face that it must be on.
-    fn kept_on(&self, side: Side, direction: DVec3) -> DVec3 {
-        if self.smooth.is_some() { on_side(direction, self.face, side) } else { direction }
+    /// A direction found by the normal, on the side of a plane that it must be on.
+    fn kept_on(&self, side: Side, plane: DVec3, direction: DVec3) -> DVec3 {
+        if self.smooth.is_some() { on_side(direction, plane, side) } else { direction }
     }
 
     /// How light is scattered here, between media of these indices of refraction, and the frame in which it is.
@@ -193,13 +239,40 @@ impl<'a> Shading<'a> {
     }
 
     /// Between the normal and the direction to a light; not positive for a light behind the surface, whatever normal
-    /// shading has.
+    /// shading has. Where that ends before the normal's own half of space does, it goes to 0 [smoothly](Shading::kept).
     pub(crate) fn cosine(&self, to_light: DVec3) -> f64 {
-        let above = self.face.dot(to_light);
-        match self.smooth {
-            Some(normal) if above > 0.0 => normal.dot(to_light),
+        let above = self.horizon().dot(to_light);
+        match &self.smooth {
+            Some(smooth) if above > 0.0 => smooth.normal.dot(to_light) * self.kept(to_light),
             Some(_) | None => above,
         }
+    }
+
+    /// What is kept of light from a direction before the surface where there is relief that is only shaded; 1 where there is
+    /// none, and in most directions where there is.
+    ///
+    /// Relief that leans to a light still turns black where the light sinks behind the surface, along hard lines. So light is
+    /// taken away little by little before that, as from relief that shadows itself: Chiang, Li and Burley, "Taming the Shadow
+    /// Terminator", SIGGRAPH 2019 Talks. Nothing gives back more than it gets, and both ways to find light take the same away.
+    /// (For meshes, whose true planes change from triangle to triangle, it would make all of these visible; those are
+    /// [rounded].)
+    #[inline]
+    pub(crate) fn kept(&self, direction: DVec3) -> f64 {
+        let Some(Smooth { normal, ground, .. }) = &self.smooth else { return 1.0 };
+        if normal == ground {
+            return 1.0;
+        }
+        let above = ground.dot(direction);
+        let most = normal.dot(direction) * normal.dot(*ground);
+        if above <= 0.0 {
+            return 0.0;
+        }
+        if above >= most {
+            return 1.0;
+        }
+        // The paper's ratio of cosines, and its curve, which is flat where the ratio gets to 1.
+        let open = above / most;
+        open * (1.0 + open * (1.0 - open))
     }
 }
 
@@ -210,6 +283,27 @@ pub(crate) fn highlight(shading: &Shading<'_>, to_light: DVec3) -> f32 {
     let mirrored = normal * (2.0 * normal.dot(to_light)) - to_light;
     let cosine = -mirrored.dot(shading.direction);
     if cosine > 0.0 { pow_wide(cosine, shading.material.shininess) } else { 0.0 }
+}
+
+/// A hit of a mesh whose corners bend away, shaded with this normal: light that still comes over the rounder surface that its
+/// normals tell of is not cut off by the triangle's plane, and rays start from there so that no other triangle of it is in their
+/// way (Hanika 2021, see [`durer_geometry::Primitive::lift`]). What another thing would be between, as where two touch, stays as
+/// it is, and so does what light passes.
+fn rounded(scene: &CompiledScene, shading: &Shading<'_>, normal: DVec3) -> Option<Smooth> {
+    let looks = &scene.objects[shading.primitive as usize].looks;
+    if looks.is_medium || looks.is_clear {
+        return None;
+    }
+    let Surface { point, offset, .. } = shading.surface;
+    let primitive = &scene.world.primitives()[shading.primitive as usize];
+    let lift = primitive.lift(point, shading.hit.crossing.part, normal)?;
+    let length = lift.length();
+    if length <= offset || lift.dot(shading.face) <= 0.0 {
+        return None;
+    }
+    let way = Ray { origin: point + shading.face * offset, direction: lift / length };
+    let is_free = !scene.world.any_hit(&way, length, None, |_, _| true);
+    is_free.then_some(Smooth { normal, ground: normal, horizon: normal, lift })
 }
 
 /// A mesh's normal at a hit, on the side of `face`, if it has one.
@@ -251,6 +345,9 @@ pub(crate) fn opacity_at(scene: &CompiledScene, hit: &Hit, surface: &Surface) ->
     let material = &scene.materials[scene.material_at(hit) as usize];
     material.opacity.map_or(Rgb::WHITE, |paint| Textured { scene, object, surface, hit }.opacity(paint))
 }
+
+#[cfg(test)]
+mod terminator;
 
 #[cfg(test)]
 mod tests {

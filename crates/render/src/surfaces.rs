@@ -233,8 +233,16 @@ fn boundary(eta: f64, tint: Rgb, ggx: Option<Ggx>) -> Bsdf {
 }
 
 fn classic(classic: &durer_scene::Classic, color: Rgb, indices: Indices) -> Bsdf {
+    // What light passes gives back no more than was reckoned with for shadow rays.
+    let most = match classic.color {
+        _ if classic.transparency.is_black() => Rgb::gray(BRIGHTEST),
+        Paint::Color(color) => color.map(|c| c.max(1.0)),
+        Paint::Texture(_) => Rgb::WHITE,
+    };
+    let least = |c: f32, most: f32| if c > 0.0 { c.min(most) } else { 0.0 };
+    let color = Rgb::new(least(color.r, most.r), least(color.g, most.g), least(color.b, most.b));
     let parts = Parts {
-        diffuse: color.map(|c| if c > 0.0 { c.min(BRIGHTEST) } else { 0.0 }) * classic.diffuse,
+        diffuse: color * classic.diffuse,
         specular: classic.specular,
         shininess: classic.shininess,
         reflection: classic.reflection,

@@ -27,7 +27,7 @@
 //! * KHR_materials_pbrSpecularGlossiness has roughness 1 - glossiness, and says what is mirrored straight back, which as
 //!   `specular_color` is a multiple of 0.04; its texture is not used.
 //! * KHR_materials_unlit becomes a classic material of `ambient` 1 without anything else: the color itself, under the usual
-//!   white ambient light.
+//!   white ambient light. Path tracing lets such materials glow as bright.
 //! * Occlusion and thickness textures, and normals of coats, are not used; nor the directions in anisotropy textures.
 //! * All textures of a material are laid on by the texture coordinates of the first.
 

@@ -1,4 +1,4 @@
-//! Flat primitives, met by eight rays at once: the arithmetic of `Shape::intersect` and `Primitive::surface`, operation by
+//! Primitives and eight rays at once: which come near them, and where they meet flat ones. The latter is the arithmetic of `Shape::intersect` and `Primitive::surface`, operation by
 //! operation.
 
 use super::{Kind, Primitive};
@@ -11,6 +11,39 @@ impl Primitive {
     #[inline(always)]
     pub(crate) fn is_flat(&self) -> bool {
         self.flat.is_some()
+    }
+
+    /// True if no straight line meets it again that leaves it on its outside.
+    #[inline(always)]
+    pub(crate) fn is_convex(&self) -> bool {
+        match &self.kind {
+            Kind::Sphere(_) | Kind::Cuboid(_) => true,
+            Kind::Cylinder(cylinder) => !cylinder.open,
+            Kind::Cone(cone) => !cone.open,
+            Kind::Plane(_)
+            | Kind::Disc(_)
+            | Kind::Rectangle(_)
+            | Kind::Triangle(_)
+            | Kind::Torus(_)
+            | Kind::Mesh(_)
+            | Kind::Particles(_)
+            | Kind::Solid(_) => false,
+        }
+    }
+
+    /// Which of eight rays, of directions of unit length, come near it: all others surely miss it.
+    #[inline(always)]
+    pub(crate) fn lanes_near<S: Simd>(&self, simd: S, (origin, direction): (Lanes<S>, Lanes<S>)) -> u32 {
+        let (middle, squared_radius) = self.ball;
+        let to_middle = Lanes::splat(simd, middle) - origin;
+        let along = to_middle.dot(direction);
+        let aside = to_middle - direction * along;
+        let squared = to_middle.dot(to_middle);
+        // What the differences may have lost by rounding is much less than the last term.
+        let reach = f64x8::splat(simd, squared_radius) + squared * 1e-12;
+        let misses = aside.dot(aside).simd_gt(reach);
+        let is_behind = along.simd_lt(f64x8::splat(simd, 0.0)) & squared.simd_gt(reach);
+        !(misses | is_behind).to_bitmask() as u32
     }
 
     /// Its normal, if it is flat.
@@ -80,7 +113,7 @@ mod tests {
     use crate::packet::{LANES, Packet};
     use crate::simd::lanes::{Columns, lane_of};
     use crate::{Ray, SimdLevel};
-    use durer_math::DAffine3;
+    use durer_math::{DAffine3, DMat3};
     use fearless_simd::dispatch;
 
     fn flats() -> Vec<Primitive> {
@@ -141,5 +174,87 @@ mod tests {
             }
         }
         assert!(met > 1000, "{met}");
+    }
+
+    /// Solid and hollow things, small, stretched and sheared, near and far.
+    fn things() -> Vec<Primitive> {
+        let far = DAffine3::from_translation(DVec3::new(300.0, -200.0, 100.0));
+        let sheared =
+            DMat3::from_cols(DVec3::new(1.0, 0.2, 0.0), DVec3::new(0.7, 0.1, 0.3), DVec3::new(0.0, -0.4, 2.0));
+        let maps = [DAffine3::IDENTITY, DAffine3::from_mat3(sheared), far, DAffine3::from_scale(DVec3::splat(1e-3))];
+        let (low, high) = (DVec3::new(-0.6, -0.5, 0.1), DVec3::new(0.5, 0.9, 0.4));
+        let each = |map: &DAffine3| {
+            let mut things = vec![
+                Primitive::sphere(low, 0.7, map),
+                Primitive::cuboid(low, high, map),
+                Primitive::torus(low, high, [0.8, 0.2], map),
+                Primitive::triangle([low, high, DVec3::X], [durer_math::DVec2::ZERO; 3], map),
+            ];
+            for open in [false, true] {
+                things.push(Primitive::cylinder(low, high, 0.3, open, map));
+                things.push(Primitive::cone(low, high, [0.4, 0.0], open, map));
+                things.push(Primitive::cone(low, high, [0.3, 0.5], open, map));
+            }
+            things
+        };
+        maps.iter().flat_map(each).chain(flats()).collect()
+    }
+
+    #[test]
+    fn rays_that_meet_something_come_near_it() {
+        let (mut met, mut missed) = (0, 0);
+        for level in SimdLevel::available() {
+            for thing in things() {
+                let bounds = thing.bounds();
+                let (middle, size) = match bounds.size().is_finite() {
+                    true => (bounds.center(), bounds.size().length()),
+                    false => (DVec3::ZERO, 1.0),
+                };
+                for packet in packets().take(100) {
+                    let rays: [Ray; LANES] = std::array::from_fn(|lane| {
+                        let ray = packet.ray(lane);
+                        Ray { origin: middle + ray.origin * size, direction: ray.direction }
+                    });
+                    let packet = Packet::new(&rays);
+                    let near = dispatch!(level.level(), simd => {
+                        let rays = (Lanes::load(simd, &packet.origin), Lanes::load(simd, &packet.direction));
+                        thing.lanes_near(simd, rays)
+                    });
+                    for (lane, ray) in rays.iter().enumerate() {
+                        let meets = thing.meets(ray, f64::INFINITY);
+                        assert!(!meets || near >> lane & 1 == 1, "{ray:?} {thing:?}");
+                        (met, missed) = (met + u32::from(meets), missed + u32::from(near >> lane & 1 == 0));
+                    }
+                }
+            }
+        }
+        assert!(met > 5_000 && missed > 50_000, "{met} met, {missed} missed");
+    }
+
+    /// Directions along the surface are the hardest.
+    #[test]
+    fn rays_that_leave_what_is_convex_do_not_meet_it_again() {
+        let mut left = 0;
+        for thing in things().iter().filter(|thing| thing.is_convex()) {
+            let (middle, size) = (thing.bounds().center(), thing.bounds().size().length());
+            for packet in packets().take(5000) {
+                let [ray, other] = [packet.ray(0), packet.ray(1)];
+                let ray = Ray { origin: middle + ray.origin * size, direction: ray.direction };
+                let Some(crossing) = thing.intersect(&ray, f64::INFINITY) else { continue };
+                let surface = thing.surface(&ray, &crossing);
+                if ray.direction.dot(surface.normal) >= 0.0 {
+                    continue;
+                }
+                let along = other.direction - surface.normal * other.direction.dot(surface.normal);
+                for cosine in [1.1e-6_f64, 1e-4, 0.01, 0.3, 1.0] {
+                    let direction =
+                        (along.normalize() * (1.0 - cosine * cosine).sqrt() + surface.normal * cosine).normalize();
+                    let origin = surface.point + surface.normal * surface.offset;
+                    assert!(!thing.meets(&Ray { origin, direction }, f64::INFINITY), "{cosine} {surface:?} {thing:?}");
+                    left += 1;
+                }
+            }
+        }
+        assert!(left > 10_000, "{left}");
     }
 }

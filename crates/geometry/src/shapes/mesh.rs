@@ -122,6 +122,33 @@ impl Mesh {
         Some(corners[0] * a + corners[1] * b + corners[2] * c)
     }
 
+    /// From a point of a triangle to the rounder surface that the normals of its corners tell of: the mean of its images on the
+    /// planes across those normals, by the weights of the corners (Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II,
+    /// 2021, §4). `None` where that is not before the triangle, as seen from the side that the normals point to or, if
+    /// `is_behind`, from the other: where the corners do not all bend away.
+    pub(crate) fn lift(&self, point: DVec3, part: u32, is_behind: bool) -> Option<DVec3> {
+        /// What rounding may make of an edge along which the surface does not bend.
+        const FLAT: f64 = 1e-3;
+        let normals = self.source.normals();
+        if normals.is_empty() {
+            return None;
+        }
+        let Triangle { vertices, .. } = self.triangle(part);
+        let sign = if is_behind { -1.0 } else { 1.0 };
+        let (weights, corners) = (self.weights(point, part), self.source.triangles()[part as usize]);
+        let mut lift = DVec3::ZERO;
+        for (index, (weight, vertex)) in weights.into_iter().zip(corners).enumerate() {
+            let normal = (wide(normals[vertex as usize]) * sign).try_normalize()?;
+            let here = vertices[index];
+            let bends_away = |there: &DVec3| (*there - here).dot(normal) <= FLAT * (*there - here).length();
+            if !vertices.iter().all(bends_away) {
+                return None;
+            }
+            lift -= normal * (weight * (point - here).dot(normal).min(0.0));
+        }
+        Some(lift)
+    }
+
     /// The weights of a triangle's corners at a point of it.
     pub(crate) fn weights(&self, point: DVec3, part: u32) -> [f64; 3] {
         let (b, c) = self.triangle(part).weights(point);

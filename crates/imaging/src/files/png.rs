@@ -1,9 +1,11 @@
-//! PNG, by the `png` crate.
+//! PNG, by the `png` crate; the rows of pixels by our own.
 
-use ::png::{BitDepth, ColorType, Compression, DecodingError, EncodingError, SrgbRenderingIntent, Transformations};
+mod rows;
+
+use ::png::chunk::IDAT;
+use ::png::{BitDepth, ColorType, DecodingError, EncodingError, SrgbRenderingIntent, Transformations};
 use std::io::{Cursor, ErrorKind};
 
-use crate::quantize::{byte_from_linear, bytes_from_linear, word_from_linear};
 use crate::{
     Alpha, Bitmap, DecodeError, DecodeLimits, EncodeError, EncodeOptions, FileFacts, FileFormat, Image, PngDepth,
     Texels, Transfer,
@@ -122,6 +124,9 @@ fn in_plain_words(message: &str) -> &'static str {
     PLAIN_WORDS.iter().find(|(part, _)| message.contains(part)).map_or("a damaged chunk", |(_, words)| words)
 }
 
+/// Bytes in a chunk of compressed rows; the format allows no more.
+const LONGEST_CHUNK: usize = (1 << 31) - 1;
+
 /// Colors are straight: not multiplied by alpha.
 pub(crate) fn encode(image: &Image, alpha: Option<&[f32]>, options: &EncodeOptions) -> Result<Vec<u8>, EncodeError> {
     let mut bytes = Vec::new();
@@ -131,7 +136,6 @@ pub(crate) fn encode(image: &Image, alpha: Option<&[f32]>, options: &EncodeOptio
         PngDepth::Eight => BitDepth::Eight,
         PngDepth::Sixteen => BitDepth::Sixteen,
     });
-    encoder.set_compression(Compression::Fast);
     if options.transfer == Transfer::Srgb {
         encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
     }
@@ -139,11 +143,10 @@ pub(crate) fn encode(image: &Image, alpha: Option<&[f32]>, options: &EncodeOptio
         add_text(&mut encoder, keyword, text)?;
     }
     let mut writer = encoder.write_header().map_err(|error| encode_error(&error))?;
-    let samples = match alpha {
-        Some(alpha) => samples_with_alpha(image, alpha, options),
-        None => samples(image, options),
-    };
-    writer.write_image_data(&samples).map_err(|error| encode_error(&error))?;
+    let rows = rows::compressed(image, alpha, options).map_err(|error| encode_error(&error.into()))?;
+    for part in rows.chunks(LONGEST_CHUNK) {
+        writer.write_chunk(IDAT, part).map_err(|error| encode_error(&error))?;
+    }
     writer.finish().map_err(|error| encode_error(&error))?;
     Ok(bytes)
 }
@@ -163,35 +166,6 @@ fn add_text(encoder: &mut ::png::Encoder<'_, &mut Vec<u8>>, keyword: &str, text:
     let added =
         if text.is_ascii() { encoder.add_text_chunk(keyword, text) } else { encoder.add_itxt_chunk(keyword, text) };
     added.map_err(|error| encode_error(&error))
-}
-
-/// The rows' bytes, 16-bit numbers with the high byte first.
-fn samples(image: &Image, options: &EncodeOptions) -> Vec<u8> {
-    let pixels = &image.pixels;
-    match options.png_depth {
-        PngDepth::Eight => bytes_from_linear(pixels, options.transfer),
-        PngDepth::Sixteen => {
-            let components = pixels.iter().flat_map(|pixel| pixel.to_array());
-            components.flat_map(|v| word_from_linear(v, options.transfer).to_be_bytes()).collect()
-        }
-    }
-}
-
-/// As [`samples`], with alpha as a fourth component, which knows no transfer curve.
-fn samples_with_alpha(image: &Image, alpha: &[f32], options: &EncodeOptions) -> Vec<u8> {
-    let colors = samples(image, options);
-    let (colors, alphas) = match options.png_depth {
-        PngDepth::Eight => {
-            let alphas = alpha.iter().map(|&a| byte_from_linear(a, Transfer::Linear)).collect();
-            (colors.chunks_exact(3), alphas)
-        }
-        PngDepth::Sixteen => {
-            let alphas = alpha.iter().flat_map(|&a| word_from_linear(a, Transfer::Linear).to_be_bytes());
-            (colors.chunks_exact(6), alphas.collect::<Vec<u8>>())
-        }
-    };
-    let length = alphas.len() / alpha.len().max(1);
-    colors.zip(alphas.chunks_exact(length.max(1))).flat_map(|(color, alpha)| [color, alpha].concat()).collect()
 }
 
 fn encode_error(error: &EncodingError) -> EncodeError {

@@ -5,29 +5,33 @@ use durer_math::DVec2;
 
 /// `n` × `n` samples, each in the middle of its cell.
 pub(crate) struct Grid {
-    pub(crate) n: u32,
+    /// From the corner of the pixel, row by row.
+    points: Vec<DVec2>,
+    /// Of a sample.
+    weight: f32,
+}
+
+impl Grid {
+    /// So many samples along a side.
+    pub(crate) fn new(n: u32) -> Grid {
+        let cell = 1.0 / f64::from(n);
+        let within = |row: u32, column: u32| DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5) * cell;
+        let points = (0..n).flat_map(|row| (0..n).map(move |column| within(row, column))).collect();
+        Grid { points, weight: 1.0 / (n * n) as f32 }
+    }
 }
 
 impl Antialias for Grid {
     fn certain(&self, corner: DVec2, points: &mut Vec<DVec2>) {
-        points.extend(self.points(corner));
+        points.extend(self.points.iter().map(|&point| corner + point));
     }
 
+    #[inline]
     fn pixel(&self, corner: DVec2, samples: &mut impl Samples) {
-        let weight = 1.0 / (self.n * self.n) as f32;
-        self.points(corner).for_each(|point| {
-            let sample = samples.take(point);
-            samples.keep(weight, sample);
-        });
-    }
-}
-
-impl Grid {
-    fn points(&self, corner: DVec2) -> impl Iterator<Item = DVec2> {
-        let n = self.n;
-        let cell = 1.0 / f64::from(n);
-        let within = move |row: u32, column: u32| DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5) * cell;
-        (0..n).flat_map(move |row| (0..n).map(move |column| corner + within(row, column)))
+        for &point in &self.points {
+            let sample = samples.take(corner + point);
+            samples.keep(self.weight, sample);
+        }
     }
 }
 
@@ -59,7 +63,7 @@ mod tests {
     #[test]
     fn samples_are_the_middles_of_the_cells() {
         let mut places = Places::default();
-        Grid { n: 2 }.pixel(DVec2::new(10.0, 20.0), &mut places);
+        Grid::new(2).pixel(DVec2::new(10.0, 20.0), &mut places);
         assert_eq!(places.taken, [(10.25, 20.25), (10.75, 20.25), (10.25, 20.75), (10.75, 20.75)]);
         assert_eq!(places.weights, 1.0);
     }

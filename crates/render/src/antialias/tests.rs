@@ -302,7 +302,7 @@ fn filters_weigh_an_edge_as_their_integrals_say() {
     ];
     let half = |at: DVec2| if at.x < 24.0 { 1.0 } else { 0.0 };
     for (filter, kernel) in kernels {
-        let made = Made::by(&Painted::new(half, false), Alone::new(Grid { n: 16 }), filter);
+        let made = Made::by(&Painted::new(half, false), Alone::new(Grid::new(16)), filter);
         for x in 20..28 {
             let (found, exact) = (f64::from(made.pixel(x, 9)), integral(kernel, 24.0 - f64::from(x) - 0.5));
             assert!((found - exact).abs() < 2e-3, "{filter:?} {x}: {found}, not {exact}");
@@ -348,6 +348,6 @@ fn what_is_not_finite_is_left_out() {
     let hole = |at: DVec2| if (at - DVec2::splat(20.5)).length() < 0.1 { f32::NAN } else { 0.25 };
     let broken = Made::by(&Painted::new(hole, false), adaptive(&small), PixelFilter::Box);
     assert!(broken.pixels.iter().all(|pixel| (pixel - 0.25).abs() < 1e-6));
-    let grid = Made::by(&Painted::new(hole, false), Alone::new(Grid { n: 3 }), PixelFilter::Tent { radius: 1.0 });
+    let grid = Made::by(&Painted::new(hole, false), Alone::new(Grid::new(3)), PixelFilter::Tent { radius: 1.0 });
     assert!(grid.pixels.iter().all(|pixel| (pixel - 0.25).abs() < 1e-6));
 }

@@ -1,12 +1,14 @@
 //! Shapes that give off light: aimed at element by element (see [`durer_geometry::Primitive::each_element`]).
 
+mod textured;
+
 use super::LightSample;
 use super::tree::{Cone, Faces, Item};
 use crate::compile::CompiledScene;
 use crate::shading::Shading;
-use durer_geometry::{Aim, Aimable, Crossing, Extent, Hit, Primitive, Ray};
+use durer_geometry::{Aim, Aimable, Crossing, Hit, Ray};
 use durer_math::{DVec2, DVec3, Rgb};
-use durer_scene::{Emission, Paint, Sides};
+use durer_scene::{Emission, Integrator, Paint, Sides};
 use rayon::prelude::*;
 
 /// More elements than this are not aimed at, which a path that meets them by chance makes up for.
@@ -40,26 +42,32 @@ struct Element {
 }
 
 impl Shapes {
-    /// Those of a scene, and what the tree needs to know of each; ids are their indices.
-    pub(super) fn of(scene: &CompiledScene) -> (Shapes, Vec<Item>) {
+    /// Those of a scene, and what the tree needs to know of each; ids are their indices. `means` are the mean luminances that
+    /// the emission of each material has all over its texture.
+    pub(super) fn of(scene: &CompiledScene, means: &[f64]) -> (Shapes, Vec<Item>) {
         let glows = |material: u32| scene.materials[material as usize].emission.is_some();
         let any_glows = (0..scene.materials.len() as u32).any(glows);
         let mut elements = Vec::new();
         if any_glows {
+            let hidden = may_be_hidden(scene);
             for (id, primitive) in (0_u32..).zip(scene.world.primitives()) {
                 let parts = scene.details(id).is_some();
                 if !parts && !glows(scene.objects[id as usize].looks.material) {
                     continue;
                 }
+                let is_medium = hidden && scene.objects[id as usize].looks.is_medium;
                 primitive.each_element(&mut |element| {
                     let glows = emission_of(scene, id, element).is_some();
-                    if glows && elements.len() < MOST {
+                    let is_hidden = is_medium && is_only_a_boundary(scene, id, element);
+                    if glows && !is_hidden && elements.len() < MOST {
                         elements.push(Element { primitive: id, element });
                     }
                 });
             }
         }
-        let item = |(id, element): (usize, &Element)| item(scene, element, id as u32);
+        let is_uneven = |element: &&Element| even_light(scene, element).is_none();
+        let looks = textured::looks(elements.par_iter().filter(is_uneven).count());
+        let item = |(id, element): (usize, &Element)| item(scene, means, looks, element, id as u32);
         let items = elements.par_iter().enumerate().filter_map(item).collect();
         let ready = match elements.len() <= MOST_READY {
             true => elements.iter().map(|&element| Ready::of(scene, element)).collect(),
@@ -112,14 +120,21 @@ impl Shapes {
 impl Ready {
     fn of(scene: &CompiledScene, Element { primitive, element }: Element) -> Option<Ready> {
         let aimable = scene.world.primitives()[primitive as usize].aimable(element)?;
-        let material = &scene.materials[scene.material_at(&hit_of(primitive, element)) as usize];
-        let emission = material.emission?;
-        let plain = match (emission.color, material.opacity) {
-            (Paint::Color(color), None) => Some((color * emission.strength, emission.sides)),
-            (Paint::Color(_) | Paint::Texture(_), _) => None,
-        };
+        let sides = emission_of(scene, primitive, element)?.sides;
+        let plain = even_light(scene, &Element { primitive, element }).map(|light| (light, sides));
         Some(Ready { aimable, plain })
     }
+}
+
+/// True if boundaries of media may lie in other media that hide them: where they glow, who aims at them would have to know. So
+/// they are found by chance. (Classic light goes by shapes alone.)
+fn may_be_hidden(scene: &CompiledScene) -> bool {
+    let media = scene.objects.iter().filter(|object| object.looks.is_medium);
+    matches!(scene.settings.integrator, Integrator::Path { .. }) && media.take(2).count() > 1
+}
+
+fn is_only_a_boundary(scene: &CompiledScene, primitive: u32, part: u32) -> bool {
+    scene.scatterings[scene.material_at(&hit_of(primitive, part)) as usize].is_only_a_boundary()
 }
 
 /// What glows of a part, if anything does.
@@ -135,15 +150,26 @@ fn given_off(scene: &CompiledScene, primitive: u32, aim: &Aim, from: DVec3) -> R
     shading.opacity.map_or(shading.emission, |opacity| shading.emission * opacity)
 }
 
-/// What the tree needs to know; `None` for what has no area or no light.
-fn item(scene: &CompiledScene, &Element { primitive, element }: &Element, id: u32) -> Option<Item> {
-    let emission = emission_of(scene, primitive, element)?;
-    let shape = &scene.world.primitives()[primitive as usize];
-    let extent = shape.extent(element)?;
+/// What an element gives off, if that is the same everywhere on it.
+fn even_light(scene: &CompiledScene, &Element { primitive, element }: &Element) -> Option<Rgb> {
     let material = &scene.materials[scene.material_at(&hit_of(primitive, element)) as usize];
-    let luminance = match (emission.color, material.opacity) {
-        (Paint::Color(color), None) => f64::from((color * emission.strength).luminance()),
-        _ => mean_luminance(scene, shape, &extent, primitive, element),
+    match (material.emission?.color, material.opacity) {
+        (Paint::Color(color), None) if !material.is_unlit => Some(color * material.emission?.strength),
+        (Paint::Color(_) | Paint::Texture(_), _) => None,
+    }
+}
+
+/// What the tree needs to know; `None` for what has no area or no light.
+fn item(scene: &CompiledScene, means: &[f64], looks: u32, element: &Element, id: u32) -> Option<Item> {
+    let Element { primitive, element: number } = *element;
+    let emission = emission_of(scene, primitive, number)?;
+    let extent = scene.world.primitives()[primitive as usize].extent(number)?;
+    let luminance = match even_light(scene, element) {
+        Some(light) => f64::from(light.luminance()),
+        None => {
+            let mean = means[scene.material_at(&hit_of(primitive, number)) as usize];
+            textured::luminance(scene, element, &extent, mean, looks)
+        }
     };
     let faces = match (emission.sides, extent.is_closed) {
         (Sides::Front, _) => Faces::Front,
@@ -161,36 +187,4 @@ fn item(scene: &CompiledScene, &Element { primitive, element }: &Element, id: u3
 
 fn hit_of(primitive: u32, part: u32) -> Hit {
     Hit { crossing: Crossing { t: 0.0, part }, primitive }
-}
-
-/// The mean of what is given off where textures decide, by a few looks from outside: two at what is flat, from both sides.
-fn mean_luminance(scene: &CompiledScene, shape: &Primitive, extent: &Extent, primitive: u32, element: u32) -> f64 {
-    const AWAY: f64 = 4.0;
-    let Some(aimable) = shape.aimable(element) else { return 0.0 };
-    let (middle, size) = (extent.bounds.center(), extent.bounds.size().length().max(f64::MIN_POSITIVE));
-    let (flat, round);
-    let (ways, looks): (&[DVec3], u32) = match extent.normal {
-        Some(normal) => {
-            flat = [normal, -normal];
-            (&flat, 4)
-        }
-        None => {
-            round = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
-            (&round, 8)
-        }
-    };
-    let (mut sum, mut count) = (0.0, 0.0);
-    for &way in ways {
-        let from = middle + way * (AWAY * size);
-        for look in 0..looks {
-            // Points of Hammersley's.
-            let across = (f64::from(look) + 0.5) / f64::from(looks);
-            let up = (f64::from(look.reverse_bits()) + 0.5) / 4_294_967_296.0 + 0.5 / f64::from(looks);
-            if let Some(aim) = shape.aim(&aimable, from, DVec2::new(across, up.min(0.999))) {
-                sum += f64::from(given_off(scene, primitive, &aim, from).luminance());
-                count += 1.0;
-            }
-        }
-    }
-    if count > 0.0 { sum / count } else { 0.0 }
 }

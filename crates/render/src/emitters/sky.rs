@@ -51,7 +51,7 @@ impl Sky {
         PI * self.mean
     }
 
-    /// A look in a direction chosen at random, and the density of that per solid angle.
+    /// A direction chosen at random, and its density per solid angle.
     pub(super) fn sample(&self, background: &Background, receiver: &Receiver, at: DVec2) -> Option<(Look, f64)> {
         let direction = match &self.kind {
             Kind::Even => by_cosine(receiver, at),
@@ -60,7 +60,7 @@ impl Sky {
             Kind::Map(map) => {
                 let Background::Image(environment) = background else { return None };
                 let (place, direction, pdf) = map.sample(environment, at)?;
-                return Some((Look { direction, light: environment.seen_at(place), place }, pdf));
+                return Some((Look { direction, place }, pdf));
             }
         };
         let look = background.look(direction);
@@ -68,9 +68,9 @@ impl Sky {
         (pdf > 0.0).then_some((look, pdf))
     }
 
-    /// The density with which [`Sky::sample`] finds a look.
+    /// The density with which [`Sky::sample`] finds a direction.
     pub(super) fn pdf(&self, background: &Background, receiver: &Receiver, look: &Look) -> f64 {
-        let Look { direction, place, .. } = *look;
+        let Look { direction, place } = *look;
         match &self.kind {
             Kind::Even => pdf_by_cosine(receiver, direction),
             Kind::Gradient { slope } => {

@@ -1,5 +1,7 @@
 //! Light on a white floor, against closed forms; and one light made in many ways.
 
+mod textured;
+
 use super::*;
 use crate::compile::compile;
 use crate::holes::Known;
@@ -261,6 +263,26 @@ fn ten_thousand_emitters_converge() {
     assert!((found / expected - 1.0).abs() < 4.0 * error / expected + 2e-3, "{found} ± {error}, not {expected}");
     // With one of them chosen at random, the standard deviation of a sample would be sixteen times the mean.
     assert!(error * 64.0 < 1.2 * expected, "{found} ± {error}");
+}
+
+/// A thousand spots over the floor, each of which lights a circle of its own: they are not taken for lamps that shine everywhere.
+#[test]
+fn a_thousand_spots_converge() {
+    let spot = |x: i32, z: i32| {
+        let position = DVec3::new(f64::from(x), 1.0, f64::from(z));
+        let (target, falloff) = (position - DVec3::Y, Falloff::InverseSquare);
+        let (half_angle_degrees, inner_half_angle_degrees) = (20.0, 15.0);
+        let kind =
+            LightKind::Spot { position, target, half_angle_degrees, inner_half_angle_degrees, falloff, radius: 0.0 };
+        Light { name: None, color: Rgb::WHITE, strength: Strength::RadiantIntensity(5.0), kind }
+    };
+    let lights = (-16..16).flat_map(|x| (-16..16).map(move |z| spot(x, z))).collect();
+    let (found, error) = seen(Scene { lights, ..floor() }, 1024);
+    // Of all of them only that right above is seen from the origin: E = I/d².
+    let expected = 5.0 / PI;
+    assert!((found / expected - 1.0).abs() < 1e-3 + 4.0 * error / expected, "{found} ± {error}, not {expected}");
+    // Were all taken to shine on all sides, the standard deviation of a sample would be four times the mean and more.
+    assert!(error * 32.0 < 2.0 * expected, "{found} ± {error}");
 }
 
 /// Lamps, shapes and a sky together: each is found as often as its chance says, so that all is there.

@@ -61,6 +61,8 @@ struct Node {
     axis: [i16; 3],
     /// The cosine of its half-angle, rounded down.
     cosine: i16,
+    /// That of how far light spreads around normals, rounded down.
+    spread: i16,
     /// The second child; the first is the next node. Of a leaf, the emitter.
     link: u32,
     parent: u32,
@@ -73,7 +75,8 @@ const UNIT: f64 = 32_767.0;
 impl Node {
     fn cone(&self) -> Cone {
         let axis = DVec3::from(self.axis.map(f64::from)).normalize_or_zero();
-        Cone { axis, cosine: f64::from(self.cosine) / UNIT, faces: self.faces }
+        let [cosine, spread] = [self.cosine, self.spread].map(|cosine| f64::from(cosine) / UNIT);
+        Cone { axis, cosine, spread, faces: self.faces }
     }
 
     /// About the irradiance, over whatever is in the way, that its emitters give to a receiver: never 0 where they give any.

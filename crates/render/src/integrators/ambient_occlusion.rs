@@ -14,7 +14,8 @@ use durer_geometry::Ray;
 use durer_math::{DVec3, Rgb};
 
 /// Shows the share of the sky that is not hidden from a point, directions weighed by their cosine, as light from it falls:
-/// (1/π) ∫ V cos θ dω. What is clear lets it through, straight. The background is white, for nothing hides the sky there.
+/// (1/π) ∫ V cos θ dω. What is clear lets it through, straight; of what is colored the
+/// luminance counts, for this is a share. The background is white, for nothing hides the sky there.
 pub(crate) struct AmbientOcclusion {
     /// What is further away hides nothing; may be infinite.
     pub(crate) distance: f64,
@@ -35,10 +36,15 @@ impl Integrator for AmbientOcclusion {
                 let shading = &first.shading;
                 let direction = Frame::around(shading.normal()).to_world(cosine_hemisphere(sampler));
                 observer.shadow_ray();
-                visibility(scene, &media, &shading.ray_back(direction.normalize()), self.distance, None)
+                share(visibility(scene, &media, &shading.ray_back(direction.normalize()), self.distance, None))
             })
         })
     }
+}
+
+/// The gray of what is left of white light. (A gray itself would lose its last digit as luminance.)
+fn share(left: Rgb) -> Rgb {
+    if left.r == left.g && left.g == left.b { left } else { Rgb::gray(left.luminance()) }
 }
 
 /// A direction about the z axis with density cos θ / π (Malley's method: points of a disc, raised to the hemisphere).

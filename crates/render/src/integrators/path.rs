@@ -45,8 +45,16 @@ impl Integrator for PathTracer {
         observer: &mut O,
     ) -> Rgb {
         let media = if scene.media_at_eye.is_empty() { Media::default() } else { Media::around(scene, ray) };
-        let state =
-            State { kind: RayKind::Eye, ray: *ray, depth: 1, met: 0, weight: Rgb::WHITE, scale: 1.0, aimed: None };
+        let state = State {
+            kind: RayKind::Eye,
+            ray: *ray,
+            depth: 1,
+            met: 0,
+            weight: Rgb::WHITE,
+            scale: 1.0,
+            aimed: None,
+            way: 0.0,
+        };
         let mut path = Path { tracer: self, scene, sampler, media, state, sum: Rgb::BLACK, observer };
         path.follow(known);
         path.sum
@@ -79,6 +87,8 @@ struct State {
     scale: f32,
     /// How it was found, if light could have been aimed at instead.
     aimed: Option<Aimed>,
+    /// How far it has come through fog since it was last bent or scattered.
+    way: f64,
 }
 
 /// How a direction was found that aiming at lights might have found as well.
@@ -112,11 +122,12 @@ impl<O: Observer> Path<'_, O> {
         let met = meet(scene, &self.state.ray, known, self.observer);
         self.along(met.length);
         let Some(hit) = met.hit else {
-            let seen = scene.background.look(met.ray.direction);
-            if !seen.light.is_black() {
-                let density = |receiver: &Receiver| scene.emitters.pdf_of_background(scene, receiver, &seen);
+            let look = scene.background.look(met.ray.direction);
+            let seen = scene.background.light(&look);
+            if !seen.is_black() {
+                let density = |receiver: &Receiver| scene.emitters.pdf_of_background(scene, receiver, &look);
                 let part = self.part_of_found(density);
-                self.add(Source::Background, seen.light * part);
+                self.add(Source::Background, seen * part);
             }
             return false;
         };
@@ -129,13 +140,14 @@ impl<O: Observer> Path<'_, O> {
             let there = opacity.to_array().iter().sum::<f32>() / 3.0;
             if self.sampler.one(self.step(), Purpose::Opacity) >= f64::from(there) {
                 self.state.weight *= (Rgb::WHITE - opacity) * (1.0 / (1.0 - there));
-                self.pass(&shading, shading.bounds_medium && !shading.from_outside);
+                self.pass(&shading, shading.crosses_past(opacity));
                 return true;
             }
             self.state.weight *= opacity * (1.0 / there);
         }
         let emission = shading.emission;
-        if !emission.is_black() {
+        // What another medium hides is not there and does not glow.
+        if !emission.is_black() && (!shading.bounds_medium || self.indices(&shading).is_some()) {
             let density =
                 |receiver: &Receiver| scene.emitters.pdf_of_hit(scene, receiver, &met.ray, &hit, &surface, met.length);
             let part = self.part_of_found(density);
@@ -167,13 +179,17 @@ impl<O: Observer> Path<'_, O> {
         let Some(scattered) = bsdf.sample(out, lobe, self.sampler.two(step, Purpose::Direction)) else {
             return false;
         };
-        self.state.weight *= scattered.weight;
-        self.state.scale *= scattered.scale;
         let passes = scattered.direction.z < 0.0;
         let direction = frame.to_world(scattered.direction).normalize();
+        let mut weight = scattered.weight;
+        if let (How::Spread { .. }, false) = (scattered.how, passes) {
+            weight = weight * shading.kept(direction) as f32;
+        }
+        self.state.weight *= weight;
+        self.state.scale *= scattered.scale;
         let pdf = if let How::Spread { pdf } = scattered.how { Some(pdf) } else { None };
         let survival = self.survival();
-        self.observer.scattering(&Scattering { direction, pdf, weight: scattered.weight, survival });
+        self.observer.scattering(&Scattering { direction, pdf, weight, survival });
         if !self.survives(survival) {
             return false;
         }
@@ -190,7 +206,7 @@ impl<O: Observer> Path<'_, O> {
             }
             How::Only => self.state.aimed = None,
         }
-        self.state.depth += 1;
+        (self.state.depth, self.state.way) = (self.state.depth + 1, 0.0);
         if passes {
             if shading.bounds_medium {
                 let _ = self.media.cross(shading.primitive, shading.from_outside);
@@ -235,9 +251,12 @@ impl<O: Observer> Path<'_, O> {
         let at = self.sampler.two(step, Purpose::LightPoint);
         let Some(light) = scene.emitters.sample(scene, receiver, choice, at) else { return };
         let toward = frame.to_local(light.direction);
-        let (scattered, pdf) = bsdf.evaluate(out, toward);
+        let (mut scattered, pdf) = bsdf.evaluate(out, toward);
         let mut visible = Rgb::BLACK;
         let passes = toward.z < 0.0;
+        if !passes {
+            scattered = scattered * shading.kept(light.direction) as f32;
+        }
         if !scattered.is_black() && shading.is_on_far_side(light.direction) == passes {
             self.observer.shadow_ray();
             let ray = if passes { shading.ray_on(light.direction) } else { shading.ray_back(light.direction) };
@@ -280,7 +299,7 @@ impl<O: Observer> Path<'_, O> {
     }
 
     /// Goes on straight, as if there were no surface. It stays the same segment of the path, for light that was aimed at
-    /// comes through here, too. (No medium begins where a surface is not, but one that the ray is in ends.)
+    /// comes through here, too.
     fn pass(&mut self, shading: &Shading<'_>, crosses: bool) {
         if crosses {
             let _ = self.media.cross(shading.primitive, shading.from_outside);
@@ -313,7 +332,8 @@ impl<O: Observer> Path<'_, O> {
     /// What the segment does to the light that comes along it.
     fn along(&mut self, length: f64) {
         if let Some(fog) = &self.scene.fog {
-            let veil = fog.veil(length);
+            let veil = fog.veil_behind(self.state.way, length);
+            self.state.way += length;
             self.add(Source::Fog, veil.color * (1.0 - veil.visible));
             self.state.weight = self.state.weight * veil.visible;
         }

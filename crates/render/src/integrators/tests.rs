@@ -33,6 +33,27 @@ fn occlusion(shapes: &[Shape], distance: f64) -> f32 {
     sum.g / SAMPLES as f32
 }
 
+/// A colored pane hides a share of the sky, not a color of it.
+#[test]
+fn occlusion_behind_colored_panes_is_gray() {
+    use durer_scene::{Classic, Material, MaterialId, MaterialKind};
+    let transparency = Rgb::new(0.9, 0.3, 0.1);
+    let red = Material::of(MaterialKind::Classic(Classic { transparency, ..Classic::default() }));
+    let pane = Shape::Plane { point: DVec3::Y * 2.0, normal: DVec3::Y };
+    let objects = vec![
+        Object::new(ObjectKind::Shape(floor())),
+        Object { material: Some(MaterialId(0)), ..Object::new(ObjectKind::Shape(pane)) },
+    ];
+    let materials = vec![red];
+    let scene = Scene { objects, materials, camera: Some(Camera::default()), ..Scene::default() };
+    let scene = compile(&scene.check().unwrap());
+    let ray = Ray { origin: DVec3::new(0.01, 0.01, 0.0), direction: DVec3::new(-1.0, -1.0, 0.0).normalize() };
+    let integrator = AmbientOcclusion { distance: f64::INFINITY };
+    let sampler = Sampler::new(0, (0, 0), 0);
+    let found = integrator.radiance(&scene, &ray, Known::Nothing, &sampler, &mut RayCounts::default());
+    assert_eq!(found, Rgb::gray(transparency.luminance()));
+}
+
 /// A ball straight above a surface hides the part (r / h)² of what falls on it, with its middle at height h.
 #[test]
 fn a_ball_hides_as_much_sky_as_its_form_factor_says() {

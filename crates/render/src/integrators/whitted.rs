@@ -83,7 +83,7 @@ impl<O: Observer> Path<'_, O> {
                     self.go_on(&shading, depth, there);
                 }
                 if let Some(opacity) = opacity {
-                    self.go_past(&shading, depth, weight * (Rgb::WHITE - opacity));
+                    self.go_past(&shading, depth, weight, opacity);
                 }
             }
         }
@@ -199,14 +199,15 @@ impl<O: Observer> Path<'_, O> {
         }
     }
 
-    /// What lies behind where the surface is not there. No medium begins there, but one that the ray is in ends.
+    /// What lies behind where the surface is not there, of which so much is.
     #[inline(never)]
-    fn go_past(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb) {
+    fn go_past(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb, opacity: Rgb) {
+        let weight = weight * (Rgb::WHITE - opacity);
         if weight.is_black() {
             return;
         }
-        let undo = match shading.bounds_medium && !shading.from_outside {
-            true => self.media.cross(shading.primitive, false),
+        let undo = match shading.crosses_past(opacity) {
+            true => self.media.cross(shading.primitive, shading.from_outside),
             false => Undo::Nothing,
         };
         self.follow(RayKind::Transmitted, depth, &shading.ray_on(shading.direction), weight);

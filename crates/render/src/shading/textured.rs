@@ -47,8 +47,11 @@ impl Textured<'_> {
         }
     }
 
-    /// What the surface gives off, on a side that does. Colors of the surface's own have no part in it.
+    /// What the surface gives off, on a side that does. Colors of the surface's own have no part in it, unless it is unlit.
     pub(super) fn emission(&self, material: &Material) -> Rgb {
+        if material.is_unlit {
+            return self.color(material.color) * self.scene.ambient * material.ambient;
+        }
         material.emission.map_or(Rgb::BLACK, |glow| self.scene.textures.color(glow.color, self) * glow.strength)
     }
 

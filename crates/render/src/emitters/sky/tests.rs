@@ -65,9 +65,8 @@ fn agrees(background: &Background) {
         for index in 0..SAMPLES {
             let sampler = crate::sampler::Sampler::new(7, (3, 4), index);
             let at = sampler.two(0, crate::sampler::Purpose::LightPoint);
-            let Some((Look { direction, light: seen, .. }, pdf)) = sky.sample(background, &receiver, at) else {
-                continue;
-            };
+            let Some((look, pdf)) = sky.sample(background, &receiver, at) else { continue };
+            let (direction, seen) = (look.direction, background.light(&look));
             assert!(direction.is_normalized());
             let again = sky.pdf(background, &receiver, &background.look(direction));
             assert!((again / pdf - 1.0).abs() < 1e-4, "{pdf} is not {again}");

@@ -18,6 +18,7 @@ pub(super) fn build(items: &mut [Item]) -> Vec<Node> {
         intensity: 0.0,
         axis: [0; 3],
         cosine: 0,
+        spread: 0,
         link: NONE,
         parent: NONE,
         faces: Faces::Front,
@@ -42,9 +43,9 @@ struct Place {
 fn fill(nodes: &mut [Node], items: &mut [Item], place: Place) -> Cone {
     let parent = place.parent;
     if let [Item { min, max, intensity, cone, id }] = *items {
-        let (axis, cosine) = narrowed(&cone);
+        let (axis, [cosine, spread]) = narrowed(&cone);
         let faces = cone.faces;
-        nodes[0] = Node { min, max, intensity, axis, cosine, link: id, parent, faces, is_leaf: true };
+        nodes[0] = Node { min, max, intensity, axis, cosine, spread, link: id, parent, faces, is_leaf: true };
         return cone;
     }
     let middle = divide(items, place.depth);
@@ -62,13 +63,14 @@ fn fill(nodes: &mut [Node], items: &mut [Item], place: Place) -> Cone {
     };
     let (a, b) = (&first_nodes[0], &second_nodes[0]);
     let cone = first_cone.union(second_cone);
-    let (axis, cosine) = narrowed(&cone);
+    let (axis, [cosine, spread]) = narrowed(&cone);
     node[0] = Node {
         min: std::array::from_fn(|k| a.min[k].min(b.min[k])),
         max: std::array::from_fn(|k| a.max[k].max(b.max[k])),
         intensity: a.intensity + b.intensity,
         axis,
         cosine,
+        spread,
         link: second.index,
         parent,
         faces: cone.faces,
@@ -77,15 +79,18 @@ fn fill(nodes: &mut [Node], items: &mut [Item], place: Place) -> Cone {
     cone
 }
 
-/// The cone in short: no narrower than it is.
-fn narrowed(cone: &Cone) -> ([i16; 3], i16) {
+/// The cone in short, its axis and both cosines: no narrower than it is.
+fn narrowed(cone: &Cone) -> ([i16; 3], [i16; 2]) {
     /// More than what rounding turns an axis by can take from a cosine.
     const SLACK: f64 = 1.5e-4;
     let axis = (cone.axis * UNIT).to_array().map(|x| x.round() as i16);
+    let down = |cosine: f64| ((cosine - SLACK) * UNIT).floor();
+    // No surface shines behind itself.
+    let spread = down(cone.spread).max(0.0) as i16;
     if cone.cosine <= -1.0 {
-        return (axis, -(UNIT as i16));
+        return (axis, [-(UNIT as i16), spread]);
     }
-    (axis, ((cone.cosine - SLACK) * UNIT).floor().max(-UNIT) as i16)
+    (axis, [down(cone.cosine).max(-UNIT) as i16, spread])
 }
 
 /// Some items, summed up.

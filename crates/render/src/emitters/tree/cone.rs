@@ -1,4 +1,4 @@
-//! Cones around the normals of emitters.
+//! Cones around the normals of emitters, and of the directions in which they shine.
 
 use super::widened;
 use durer_math::DVec3;
@@ -34,16 +34,27 @@ pub(crate) struct Cone {
     pub(crate) axis: DVec3,
     /// Of the half-angle; -1 for all directions.
     pub(crate) cosine: f64,
+    /// The cosine of the greatest angle to a normal in which light is given off: 0 for surfaces, which shine in all directions
+    /// before them, and more for spots, which do not.
+    pub(crate) spread: f64,
     pub(crate) faces: Faces,
 }
 
 impl Cone {
     /// All directions.
-    pub(crate) const ALL: Cone = Cone { axis: DVec3::ZERO, cosine: -1.0, faces: Faces::Closed };
+    pub(crate) const ALL: Cone = Cone { axis: DVec3::ZERO, cosine: -1.0, spread: 0.0, faces: Faces::Closed };
 
     /// One direction.
     pub(crate) fn of(axis: DVec3, faces: Faces) -> Cone {
-        Cone { axis, cosine: 1.0, faces }
+        Cone { axis, cosine: 1.0, spread: 0.0, faces }
+    }
+
+    /// A spot with these cosines of half-angles: all around its axis it is as bright as on it, up to the `inner` one, and dark
+    /// from the `outer` one on.
+    pub(crate) fn of_spot(axis: DVec3, inner: f64, outer: f64) -> Cone {
+        // The cosine of the difference.
+        let spread = inner * outer + ((1.0 - inner * inner).max(0.0) * (1.0 - outer * outer).max(0.0)).sqrt();
+        Cone { axis, cosine: inner, spread: spread.clamp(0.0, 1.0), faces: Faces::Front }
     }
 
     /// The most, from 0 to 1, that a surface with a normal in the cone shows in a direction, if that is known but for an angle
@@ -53,13 +64,16 @@ impl Cone {
             return 1.0;
         }
         let cosine = self.axis.dot(toward);
-        let shown = |cosine: f64| widened(widened(cosine, blur), self.cosine).max(0.0);
+        let shown = |cosine: f64| match widened(widened(cosine, blur), self.cosine) {
+            shown if shown >= self.spread => shown,
+            _ => 0.0,
+        };
         shown(cosine).max(self.faces.back() * shown(-cosine))
     }
 
     /// A cone around both.
     pub(super) fn union(self, other: Cone) -> Cone {
-        let faces = self.faces.max(other.faces);
+        let (faces, spread) = (self.faces.max(other.faces), self.spread.min(other.spread));
         if self.cosine <= -1.0 || other.cosine <= -1.0 {
             return Cone { faces, ..Cone::ALL };
         }
@@ -69,10 +83,10 @@ impl Cone {
         let [wide, narrow] = [self.cosine, other.cosine].map(|cosine| acos(cosine.clamp(-1.0, 1.0)));
         let between = acos(self.axis.dot(other_axis).clamp(-1.0, 1.0));
         if (between + narrow).min(PI) <= wide {
-            return Cone { faces, ..self };
+            return Cone { faces, spread, ..self };
         }
         if (between + wide).min(PI) <= narrow {
-            return Cone { axis: other_axis, cosine: other.cosine, faces };
+            return Cone { axis: other_axis, cosine: other.cosine, spread, faces };
         }
         let half = 0.5 * (wide + between + narrow);
         if half >= PI {
@@ -84,6 +98,6 @@ impl Cone {
         }
         let by = half - wide;
         let axis = self.axis * cos(by) + across * sin(by);
-        Cone { axis: axis.normalize(), cosine: cos(half), faces }
+        Cone { axis: axis.normalize(), cosine: cos(half), spread, faces }
     }
 }

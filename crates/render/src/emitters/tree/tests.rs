@@ -18,11 +18,12 @@ fn items(count: u32) -> Vec<Item> {
     let item = |id: u32| {
         let (middle, size) = (vector(1, id) * 10.0, 0.3 * number(5, id));
         let axis = vector(7, id).normalize();
-        let cone = match id % 4 {
+        let cone = match id % 5 {
             0 => Cone::of(axis, Faces::Front),
             1 => Cone::of(axis, Faces::Both),
             2 => Cone::ALL,
-            _ => Cone { axis, cosine: 0.5, faces: Faces::Closed },
+            3 => Cone::of_spot(axis, 0.95, 0.8),
+            _ => Cone { axis, cosine: 0.5, spread: 0.0, faces: Faces::Closed },
         };
         Item::new(&Bounds { min: middle, max: middle }.widened(size), 0.01 + number(11, id), cone, id)
     };
@@ -81,6 +82,8 @@ fn who_gives_light_has_a_chance() {
                 let facing = way.dot(receiver.normal);
                 let shines = match item.cone.faces {
                     _ if item.cone.cosine < 0.0 => true,
+                    // A spot, up to its outer angle.
+                    Faces::Front if item.cone.spread > 0.0 => -way.dot(item.cone.axis) > 0.801 * way.length(),
                     Faces::Front => -way.dot(item.cone.axis) > 1e-3 * way.length(),
                     Faces::Both | Faces::Closed => true,
                 };
@@ -108,6 +111,33 @@ fn choices_go_by_distance_and_by_sides() {
     let faces = |other: Faces| vec![at(DVec3::Y, down, 0), at(DVec3::Y, Cone::of(DVec3::Y, other), 1)];
     near(LightTree::build(faces(Faces::Front), 2).probability(&receiver, 0), 1.0);
     near(LightTree::build(faces(Faces::Both), 2).probability(&receiver, 0), 0.5);
+}
+
+/// A spot is not chosen where it does not shine, nor are many of them that shine elsewhere; all along its cone it is.
+#[test]
+fn spots_are_chosen_where_they_shine() {
+    let at = |middle: DVec3, axis: DVec3, id: u32| {
+        let cone = Cone::of_spot(axis.normalize(), 0.97, 0.94);
+        Item::new(&Bounds { min: middle, max: middle }, 1.0, cone, id).unwrap()
+    };
+    // At every whole x, one that shines down and one that shines up, all at height 1.
+    let lamps: Vec<Item> = (0..40)
+        .map(|id| at(DVec3::new(f64::from(id / 2), 1.0, 0.0), DVec3::Y * f64::from(2 * (id % 2) as i32 - 1), id))
+        .collect();
+    let tree = LightTree::build(lamps, 40);
+    for x in 0..20_u32 {
+        let receiver = |aside: f64| Receiver {
+            point: DVec3::new(f64::from(x) + aside, 0.0, 0.0),
+            normal: DVec3::Y,
+            passes: false,
+        };
+        let below = tree.probability(&receiver(0.1), 2 * x);
+        // By distance alone it would be 0.16. What is left goes to the other half, in whose midst the receiver is.
+        assert!(below > 0.35, "right below the lamp at {x}, where no other shines: {below}");
+        // The cosine 0.94 is that of a slope of 0.363.
+        assert!(tree.probability(&receiver(0.36), 2 * x) > 0.2);
+        assert_eq!(tree.probability(&receiver(0.1), 2 * x + 1), 0.0);
+    }
 }
 
 /// However many there are, and wherever: in one place, or in places that get closer and closer.
@@ -152,11 +182,13 @@ fn unions_of_cones_contain_both() {
         let cone = |seed: u32| Cone {
             axis: vector(seed, index).normalize(),
             cosine: if index % 7 == 0 { 1.0 } else { 2.0 * number(seed + 3, index) - 1.0 },
+            spread: number(seed + 4, index),
             faces: Faces::Front,
         };
         let (a, b) = (cone(31), cone(41));
         let both = a.union(b);
         for one in [a, b] {
+            assert!(both.spread <= one.spread);
             let direction = (vector(51, index) * 0.5 + one.axis).normalize();
             if direction.dot(one.axis) >= one.cosine {
                 assert!(direction.dot(both.axis) >= both.cosine - 1e-12, "{one:?} in {both:?}");

@@ -1,5 +1,7 @@
 //! Closed forms that path tracing must come to.
 
+mod media;
+
 use super::*;
 use crate::compile::compile;
 use durer_scene::{
