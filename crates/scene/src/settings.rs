@@ -50,9 +50,9 @@ pub struct RenderSettings {
     /// Samples a pixel, for integrators that sample at random: exactly so many, or with a `noise` or `time` at most. `None`
     /// is [`RenderSettings::SAMPLES`] of them, or [`RenderSettings::MOST_SAMPLES`] with a `noise` or `time`.
     pub samples: Option<u32>,
-    /// Samples are taken until the estimated error of each part of the picture is below this: the standard error of pixels
-    /// over the root of their brightness, as it is seen on a screen; in white, 0.01 is one in a hundred. `None` takes
-    /// `samples` everywhere.
+    /// Samples are taken until the noise is estimated to be below this everywhere: the standard error of a pixel's luminance
+    /// over the root of its luminance, both with the picture's exposure; in the white of a screen, 0.02 is one in fifty. `None`
+    /// takes `samples` everywhere.
     pub noise: Option<f32>,
     /// No samples are begun after this many seconds; `None` sets no limit. The picture then depends on the machine.
     pub time: Option<f64>,

@@ -67,7 +67,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let is_quiet = arguments.manner.is_quiet();
     let film = match &outlines[..] {
         // A picture can be made of what there is so far.
-        [one] if !to_film && !(one.film.is_complete && !one.film.parts.is_empty()) => {
+        [one] if !to_film && (one.film.parts.is_empty() || !one.film.is_complete) => {
             let Checkpoint { film, .. } = read(&paths[0])?;
             if !is_quiet {
                 tell_unfinished(&paths[0], &film);

@@ -2,16 +2,21 @@
 
 use durer::imaging::Image;
 use durer::math::Rgb;
-use durer::{Limits, NoAssets, RenderOptions};
+use durer::{CheckedScene, Limits, NoAssets, RenderOptions};
 
-/// Renders a scene that is written as text.
-pub(crate) fn render(text: &str) -> Image {
+/// A scene that is written as text.
+pub(crate) fn load(text: &str) -> CheckedScene {
     let loaded = match durer::load_str(text, "scene.yaml", &NoAssets, &Limits::default()) {
         Ok(loaded) => loaded,
         Err(diagnostics) => panic!("{diagnostics}\n{text}"),
     };
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
-    durer::render(&durer::compile(&loaded.scene), &RenderOptions::default(), &()).expect("it renders").develop()
+    loaded.scene
+}
+
+/// Renders a scene that is written as text.
+pub(crate) fn render(text: &str) -> Image {
+    durer::render(&durer::compile(&load(text)), &RenderOptions::default(), &()).expect("it renders").develop()
 }
 
 /// The one pixel of a scene, with these settings under `render`, and the standard error of its luminance: from independent

@@ -43,7 +43,7 @@ choice_value!(ToneMapping, ToneMapping::None);
 record!(RenderSettings {
     integrator: Integrator = Integrator::Whitted => "What is computed.";
     samples: Option<u32> = None => "Samples a pixel where light is sampled at random, 1 to 1e6; 64 if it is left out. With a `noise` or `time` it is the most of a pixel, 4096 if it is left out.";
-    noise: Option<f32> = None => "Where light is sampled at random: samples are taken until the error of each part of the picture is below this, as part of the white of a screen; 0.0001 to 1.";
+    noise: Option<f32> = None => "Where light is sampled at random: samples are taken until the noise is below this everywhere: the standard error of a pixel over the root of its brightness, so that 0.02 is one in fifty in the white of a screen; 0.0001 to 1.";
     time: Option<f64> = None => "Begins no samples after this many seconds.";
     seed: u32 = 0 => "Where light is sampled at random: another number gives other noise.";
     light_samples: u32 = 16 => "`whitted`: shadow rays to each light that has an area, up to 4096; with 0, what glows lights nothing.";
