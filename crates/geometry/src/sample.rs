@@ -57,7 +57,7 @@ pub struct Extent {
 
 /// Where the squares of distances differ by no more than this factor, densities per solid angle of points chosen by area differ
 /// by its power of 1.5 at most, and surfaces that light falls on make as much of a difference. So it does without the work.
-const FAR: f64 = 1.4;
+const FAR: f64 = 2.0;
 
 /// A point chosen in the space of a form.
 #[derive(Clone, Copy, Debug)]

@@ -72,9 +72,9 @@ impl Seen {
         let (low, high) = (-y0 / (h * h + y0 * y0).sqrt(), y1 / (h * h + y1 * y1).sqrt());
         let (cosine, sine) = cos_sin_of_turns((at.x * self.solid_angle + self.rest) * (0.5 / PI));
         let f = (cosine * low - high) / sine;
-        let c = (1.0 / (f * f + low * low).sqrt()).copysign(f).clamp(-1.0, 1.0);
-        // In this plane through the y axis, from which the rest follows; a clamp undoes what was rounded.
-        let x = (c * h / (1.0 - c * c).sqrt()).clamp(x0, x1);
+        // The cosine to the x axis of the plane through the y axis in which the point is, is one over the root of f² + low²: its
+        // tangent gives x. A clamp undoes what was rounded.
+        let x = (h / (f * f + low * low - 1.0).max(0.0).sqrt()).copysign(f).clamp(x0, x1);
         let x = if x.is_nan() { x0 } else { x };
         let d2 = x * x + h * h;
         let sine = |y: f64| y / (d2 + y * y).sqrt();

@@ -42,7 +42,7 @@ impl Triangle {
     /// True if no point of it is much farther away than another, by the ball around its middle.
     fn is_far(&self, from: DVec3) -> bool {
         // (d + r)² ≤ FAR (d - r)², where d ≥ RATIO r.
-        const RATIO: f64 = 11.92;
+        const RATIO: f64 = 5.83;
         const { assert!((RATIO + 1.0) * (RATIO + 1.0) <= FAR * (RATIO - 1.0) * (RATIO - 1.0)) };
         let middle = self.middle();
         let squared = |corner: DVec3| (corner - middle).length_squared();

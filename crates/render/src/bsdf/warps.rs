@@ -1,20 +1,23 @@
 //! From points of the unit square to directions.
 
-use durer_math::{DVec2, DVec3, functions::cos_sin_of_turns};
-use std::f64::consts::PI;
+use durer_math::functions::{cos_sin_near_zero, cos_sin_of_turns};
+use durer_math::{DVec2, DVec3};
+use std::f64::consts::{FRAC_PI_4, PI};
 
 /// A point of the unit disc, evenly spread. Neighbors stay neighbors: Shirley and Chiu, "A Low Distortion Map Between Disk
 /// and Square", 1997.
 #[inline]
 pub(crate) fn disc(at: DVec2) -> DVec2 {
     let (a, b) = (2.0 * at.x - 1.0, 2.0 * at.y - 1.0);
-    if a == 0.0 && b == 0.0 {
+    // The square is divided into four triangles; in each one coordinate is the radius, and the ratio the angle from its axis.
+    let is_across = a.abs() > b.abs();
+    let (radius, other) = if is_across { (a, b) } else { (b, a) };
+    if radius == 0.0 {
         return DVec2::ZERO;
     }
-    // The square is divided into four triangles; in each one coordinate is the radius, and the ratio the angle.
-    let (radius, turns) = if a.abs() > b.abs() { (a, b / a * 0.125) } else { (b, 0.25 - a / b * 0.125) };
-    let (cos, sin) = cos_sin_of_turns(if turns < 0.0 { turns + 1.0 } else { turns });
-    DVec2::new(radius * cos, radius * sin)
+    let (cos, sin) = cos_sin_near_zero(other / radius * FRAC_PI_4);
+    let (along, aside) = (radius * cos, radius * sin);
+    if is_across { DVec2::new(along, aside) } else { DVec2::new(aside, along) }
 }
 
 /// A direction above the surface, as often as its cosine says. Malley's method.

@@ -31,8 +31,12 @@ pub(crate) struct PathTracer {
 }
 
 /// Russian roulette begins with segments of this number.
-const FIRST_ROULETTE: u32 = 4;
-/// No path goes on with a greater chance than this: between perfect mirrors it would not end.
+const FIRST_ROULETTE: u32 = 3;
+/// Paths of more weight than this go on: what roulette saves on them is less than the noise that it brings, above all where
+/// few of many paths find the light. Found by trial, with a box and a thousand things under a sky; to end all in proportion to
+/// their weight took 1.1 and 1.6 times as long to the same error. (Veach 1997, §10.4.1, has the theory.)
+const WORTHWHILE: f32 = 0.3;
+/// No path goes on with a greater chance than this that has lost nothing: between perfect mirrors it would not end.
 const MOST_LIKELY: f32 = 0.99;
 
 impl Integrator for PathTracer {
@@ -313,7 +317,8 @@ impl<O: Observer> Path<'_, O> {
         let weight = self.state.weight.max_component() / self.state.scale;
         match self.state.depth {
             depth if depth < FIRST_ROULETTE && weight > 0.0 => 1.0,
-            _ => weight.min(MOST_LIKELY),
+            _ if weight >= MOST_LIKELY => MOST_LIKELY,
+            _ => (weight / WORTHWHILE).min(1.0),
         }
     }
 
