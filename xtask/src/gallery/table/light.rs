@@ -11,6 +11,7 @@ pub(super) const ENTRIES: &[Entry] = &[
             name: "room-lit",
             caption: "a room with balls of glass, a golden ellipsoid and cones on a checkered table, in the light of lanterns",
             scene: "scenes/room-lit.yaml",
+            arguments: &["--samples", "1600"],
             ..RENDERED
         }],
     },
@@ -22,12 +23,13 @@ pub(super) const ENTRIES: &[Entry] = &[
             name: "soft-light",
             caption: "a goblet of red wine between a golden ball, a steel drum, a red ring and a block of frosted glass",
             scene: "scenes/gallery/soft-light.yaml",
+            arguments: &["--samples", "1600"],
             ..RENDERED
         }],
     },
     Entry {
         heading: "The Cornell box",
-        text: "With the numbers of Mitsuba's; a test compares each pixel with a reference.",
+        text: "With the numbers of Mitsuba's; a test compares blocks of pixels with a reference.",
         pictures: &[Picture {
             name: "cornell",
             caption: "two white boxes between a red and a green wall under a lamp",
@@ -44,6 +46,7 @@ pub(super) const ENTRIES: &[Entry] = &[
             name: "veach",
             caption: "four balls of light of different sizes, mirrored in four plates from smooth to rough",
             scene: "scenes/gallery/veach.yaml",
+            arguments: &["--samples", "256"],
             ..RENDERED
         }],
     },
