@@ -70,22 +70,23 @@ const MOST_BYTES: u64 = 8 << 30;
 ///
 /// It cannot be read, or is none that this version of durer can go on with.
 pub fn read_checkpoint(path: &Path) -> Result<Checkpoint, CheckpointError> {
-    let bytes = read_first(path, MOST_BYTES)?;
+    let (bytes, _) = read_first(path, MOST_BYTES)?;
     Checkpoint::decode(&bytes)
 }
 
 /// The first bytes of a file, in which the outline is to be found; if names are very long, in so many.
 const FIRST_BYTES: [u64; 2] = [1 << 20, 1 << 28];
 
-/// Reads the first bytes of a checkpoint. Whether the others are right only [`read_checkpoint`] finds out.
+/// Reads the first bytes of a checkpoint. Whether the others are right only [`read_checkpoint`] finds out; but there are as many
+/// as the film needs, so that what is made for the film takes no more than a small multiple of its file.
 ///
 /// # Errors
 ///
 /// They cannot be read, or are not those of a checkpoint that this version of durer can go on with.
 pub fn read_checkpoint_outline(path: &Path) -> Result<CheckpointOutline, CheckpointError> {
     let first = |most: u64| {
-        let bytes = read_first(path, most)?;
-        CheckpointOutline::decode(&bytes)
+        let (bytes, length) = read_first(path, most)?;
+        CheckpointOutline::decode(&bytes, length.min(MOST_BYTES))
     };
     match first(FIRST_BYTES[0]) {
         Err(CheckpointError::Damaged) => first(FIRST_BYTES[1]),
@@ -93,14 +94,15 @@ pub fn read_checkpoint_outline(path: &Path) -> Result<CheckpointOutline, Checkpo
     }
 }
 
-fn read_first(path: &Path, most: u64) -> Result<Vec<u8>, CheckpointError> {
+/// The first bytes of a file, and how many it has in all.
+fn read_first(path: &Path, most: u64) -> Result<(Vec<u8>, u64), CheckpointError> {
     let metadata = std::fs::metadata(path).map_err(CheckpointError::Io)?;
     if !metadata.is_file() {
         return Err(CheckpointError::AnotherKind);
     }
     let mut bytes = Vec::new();
     File::open(path).and_then(|file| file.take(most).read_to_end(&mut bytes)).map_err(CheckpointError::Io)?;
-    Ok(bytes)
+    Ok((bytes, metadata.len()))
 }
 
 impl std::fmt::Display for CheckpointError {

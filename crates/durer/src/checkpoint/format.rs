@@ -12,6 +12,9 @@ const MAGIC: &[u8; 8] = b"durer\x1a\r\n";
 /// Of the format.
 pub(super) const VERSION: u32 = 3;
 
+/// The most pixels that a picture has in a row or a column.
+const MOST_ACROSS: u32 = 65_535;
+
 /// Bytes of a hash.
 const HASH: usize = 16;
 
@@ -50,7 +53,7 @@ fn text(out: &mut Vec<u8>, text: &str) {
 
 /// Of a film, and of all else that is not unusually long.
 fn most_bytes(film: &Film) -> usize {
-    let pixel = film.sums().map_or(13, |sums| if sums.direct.is_empty() { SUMS } else { SUMS + 48 });
+    let pixel = film.sums().map_or(PIXEL, |sums| if sums.direct.is_empty() { SUMS } else { SUMS + DIRECT });
     let cells = film.sums().map_or(0, |sums| sums.calm.len() * CALM);
     pixel * film.pixels().len() + cells + film.finished_tiles().len() + 4096
 }
@@ -83,8 +86,12 @@ fn put_film(out: &mut Vec<u8>, film: &Film) {
     out.extend_from_slice(film.depths());
 }
 
-/// Bytes of the sums of a pixel.
+/// Bytes of a finished pixel.
+const PIXEL: usize = 12 + 1;
+/// Of the sums of a pixel.
 const SUMS: usize = 4 + 2 * 4 + 3 * 16 + 16;
+/// Of the sums of its direct light.
+const DIRECT: usize = 3 * 16;
 /// Of what is known of the noise of a cell.
 const CALM: usize = 4 + 1 + 4;
 
@@ -127,10 +134,17 @@ impl Checkpoint {
 }
 
 impl CheckpointOutline {
-    /// Reads it from the first bytes of a checkpoint. Whether the others are there and are right, it does not say.
-    pub(super) fn decode(bytes: &[u8]) -> Result<CheckpointOutline, CheckpointError> {
+    /// Reads it from the first bytes of a checkpoint, which has `length` of them. Whether the others are right, it does not say;
+    /// but no film is larger than its picture, nor than what so many bytes can hold.
+    pub(super) fn decode(bytes: &[u8], length: u64) -> Result<CheckpointOutline, CheckpointError> {
         begin(bytes)?;
-        made_here(bytes)?.outline().ok_or(CheckpointError::Damaged)
+        let (outline, pixel) = made_here(bytes)?.outline().ok_or(CheckpointError::Damaged)?;
+        let (region, (width, height)) = (outline.film.region, outline.scene.size);
+        let edges = (region.x.checked_add(region.width), region.y.checked_add(region.height));
+        let lies_inside = edges.0.is_some_and(|right| right <= width) && edges.1.is_some_and(|bottom| bottom <= height);
+        let is_there = region.pixels().checked_mul(pixel as u64).is_some_and(|bytes| bytes <= length);
+        let fits = width.max(height) <= MOST_ACROSS && lies_inside && is_there;
+        if fits { Ok(outline) } else { Err(CheckpointError::Damaged) }
     }
 }
 
@@ -221,16 +235,19 @@ impl<'a> Input<'a> {
         Some(Checkpoint { origin, scene, seconds, film })
     }
 
-    fn outline(&mut self) -> Option<CheckpointOutline> {
+    /// With the bytes that each pixel takes.
+    fn outline(&mut self) -> Option<(CheckpointOutline, usize)> {
         let Head { origin, scene, .. } = self.head()?;
         let FilmParts { region, .. } = self.account()?;
         let mut film = FilmOutline { region, ..FilmOutline::default() };
+        let mut pixel = PIXEL;
         if self.flag()? {
             film.is_complete = self.flag()?;
             film.direct = self.flag()?;
             film.parts = self.parts()?;
+            pixel = if film.direct { SUMS + DIRECT } else { SUMS };
         }
-        film.is_possible().then_some(CheckpointOutline { origin, scene, film })
+        film.is_possible().then_some((CheckpointOutline { origin, scene, film }, pixel))
     }
 
     /// All of a film but its pixels.

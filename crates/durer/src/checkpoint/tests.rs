@@ -180,3 +180,43 @@ fn files_of_other_kinds_are_named_so() {
     assert!(matches!(read_checkpoint(folder.path()), Err(CheckpointError::AnotherKind)));
     assert!(matches!(read_checkpoint(&folder.path().join("b")), Err(CheckpointError::Io(_))));
 }
+
+/// Whatever a few hundred bytes promise, no film is made of it: the numbers stand before any checksum is looked at.
+#[test]
+fn outlines_promise_no_more_than_there_is() {
+    let scene = scene("integrator: path, samples: 2");
+    let region = Region { x: 0, y: 0, width: 3, height: 2 };
+    let film =
+        crate::render(&crate::compile(&scene), &RenderOptions { region: Some(region), ..ONE_THREAD }, &()).unwrap();
+    let bytes = encode_checkpoint(&Origin::default(), &hash(&scene), &film, 0.0);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.film");
+    let outline_of = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).unwrap();
+        read_checkpoint_outline(&path)
+    };
+    assert_eq!(outline_of(&bytes).unwrap().film, film.outline());
+    let numbers = |numbers: &[u32]| numbers.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>();
+    let places = |wanted: &[u8]| (0..bytes.len()).filter(|&at| bytes[at..].starts_with(wanted)).collect::<Vec<usize>>();
+    let (sizes, regions) = (places(&numbers(&[75, 100])), places(&numbers(&[0, 0, 3, 2])));
+    assert_eq!((sizes.len(), regions.len()), (1, 2), "the picture; the film and its part");
+    let crafted = |size: [u32; 2], region: [u32; 4]| {
+        let mut bytes = bytes.clone();
+        bytes[sizes[0]..][..8].copy_from_slice(&numbers(&size));
+        regions.iter().for_each(|&at| bytes[at..][..16].copy_from_slice(&numbers(&region)));
+        outline_of(&bytes)
+    };
+    assert!(crafted([75, 100], [1, 1, 2, 3]).is_ok(), "as many bytes as it needs");
+    let most = u32::MAX;
+    for (size, region) in [
+        ([most, most], [0, 0, most, most]),
+        ([65_535, 65_535], [0, 0, 65_535, 65_535]),
+        ([75, 100], [0, 0, 75, 100]),
+        ([75, 100], [74, 0, 3, 2]),
+        ([75, 100], [0, 99, 3, 2]),
+        ([75, 100], [most - 3, 0, 3, 2]),
+        ([65_536, 100], [0, 0, 3, 2]),
+    ] {
+        assert!(matches!(crafted(size, region), Err(CheckpointError::Damaged)), "{size:?} {region:?}");
+    }
+}
