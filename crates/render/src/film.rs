@@ -161,10 +161,19 @@ impl Film {
         self.account.add(&tile.account);
     }
 
-    /// No more samples are to come. If all pixels have as many, the film is one of these.
+    /// No more samples are to come. If all pixels have as many, the film is one of these. Not for
+    /// films that noise ends: whether all of their pixels have as many depends on which part of the picture they are.
     pub(crate) fn finish_samples(&mut self) {
         if let Some(sums) = &mut self.sums {
             sums.close();
+        }
+        self.finish();
+    }
+
+    /// Nothing more is to come.
+    pub(crate) fn finish(&mut self) {
+        if let Some(sums) = &mut self.sums {
+            sums.calm = Vec::new();
         }
         self.finished.fill(true);
         self.finished_pixels = self.region.pixels();

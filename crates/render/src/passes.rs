@@ -70,7 +70,10 @@ pub(crate) fn render_samples<I: Integrator>(
             None => next_of_all(film, goal, in_time),
         };
         let Some(pass) = pass else {
-            film.finish_samples();
+            match noise {
+                Some(_) => film.finish(),
+                None => film.finish_samples(),
+            }
             progress.finished(film.done(), film.done());
             progress.advanced(film);
             return;

@@ -1,7 +1,7 @@
 //! Films of samples: parts of pictures, merged; renders that end by noise or time; checkpoints of them.
 
 use crate::workshop::Workshop;
-use durer::{Checkpoint, encode_checkpoint, read_checkpoint};
+use durer::{Checkpoint, Origin, encode_checkpoint, read_checkpoint};
 
 const BALL: &str = "picture: {width: 60, height: 40}\nrender: {integrator: path, samples: 8}\nobjects:\n\
     - plane: {material: {matte: {color: gray}}}\n- sphere: {center: [0, 1, 0], material: {matte: {color: tomato}}}\n";
@@ -163,6 +163,28 @@ fn parts_with_noise_are_merged_to_the_bytes_of_one_run() {
     workshop.fine("merge c.film a.film b.film -o merged.png");
     workshop.fine("render noise.yaml -o opaque.png");
     assert_eq!(workshop.bytes("merged.png"), workshop.bytes("opaque.png"));
+}
+
+/// Of nothing but the even sky, which is calm everywhere after as few samples as can be, a film is one of all that were wanted
+/// still: nothing is missing, and the films together are, byte for byte, that of one run.
+#[test]
+fn parts_where_nothing_is_noisy_are_merged_to_the_bytes_of_one_run() {
+    let workshop = workshop();
+    workshop
+        .put("noise.yaml", &BALL.replace("samples: 8", "samples: 150, noise: 0.03").replace("- plane", "# - plane"));
+    workshop.fine("render noise.yaml -o whole.film");
+    workshop.fine("render noise.yaml --crop 0,0,10,40 -o sky.film");
+    workshop.fine("render noise.yaml --crop 10,0,50,40 -o ball.film");
+    let taken = |film: &str| read_checkpoint(&workshop.path(film)).unwrap().film.sums().unwrap().least_and_most();
+    assert!(taken("sky.film") == (64, 64) && taken("ball.film").1 > 64, "{:?}", taken("ball.film"));
+    let told = workshop.fine("merge sky.film ball.film -o merged.film").stderr;
+    assert!(!told.contains("missing"), "{told}");
+    // All of their bytes but the words that they were begun with.
+    let bytes = |film: &str| {
+        let Checkpoint { origin: _, scene, film, seconds } = read_checkpoint(&workshop.path(film)).unwrap();
+        encode_checkpoint(&Origin::default(), &scene, &film, seconds)
+    };
+    assert!(bytes("merged.film") == bytes("whole.film"));
 }
 
 #[test]

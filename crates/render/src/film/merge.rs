@@ -167,11 +167,7 @@ impl Film {
     /// The film as it is, if nothing more is to be added: what is not finished stays black, or has fewer samples.
     #[must_use]
     pub fn as_it_is(mut self) -> Film {
-        self.finished.fill(true);
-        self.finished_pixels = self.region.pixels();
-        if let Some(sums) = &mut self.sums {
-            sums.calm = Vec::new();
-        }
+        self.finish();
         self
     }
 

@@ -179,7 +179,6 @@ impl Sums {
         if let ([part], true) = (&mut self.parts[..], least == most && least > 0) {
             part.samples.end = part.samples.start.saturating_add(least);
         }
-        self.calm = Vec::new();
     }
 
     /// All samples that were taken.
