@@ -5,6 +5,7 @@ mod emitters;
 use crate::antialias::adaptive::small::{MOST_THINGS, SMALL_THING};
 use crate::compile::PlacedObject;
 use crate::film::TILE;
+use crate::passes::CELL;
 use durer_geometry::Primitive;
 use durer_scene::{
     Antialias, Data, Instances, MeshData, Object, ObjectKind, ParticleKind, Particles, PixelFilter, RenderSettings,
@@ -18,6 +19,8 @@ const PIXEL: u64 = 80;
 /// Of the sums of a pixel's samples with direct light apart, and of what is to be done in a pass: on the film, and the bytes
 /// of a checkpoint.
 const SUMS: u64 = 2 * 124 + 16;
+/// Of a pixel beside a part of the picture that aims at noise: sums of its samples, and what is to be done in a pass.
+const BESIDE: u64 = 96;
 /// Of a sample that pixels share: what is seen there, by its place, and its share in the pixel.
 const SHARED_SAMPLE: u64 = 160;
 /// Of a sample that is kept for a filter, twice.
@@ -42,6 +45,7 @@ pub fn memory_needed(scene: &Scene) -> u64 {
         } else {
             PIXEL
         }),
+        beside(scene),
         primitives.placed.saturating_add(primitives.operands).saturating_mul(PLACED),
         primitives.triangles.saturating_mul(TRIANGLE),
         primitives.particles.saturating_mul(PARTICLE),
@@ -52,6 +56,18 @@ pub fn memory_needed(scene: &Scene) -> u64 {
     let mut lists = Lists::default();
     lists.objects(&scene.objects);
     built.into_iter().chain([images, lists.bytes]).fold(0, u64::saturating_add)
+}
+
+/// Of the cells that the edges of a part of the picture cut, and of those around them, if it aims at noise: at most two rows of
+/// cells along each edge, and no cell twice.
+fn beside(scene: &Scene) -> u64 {
+    if scene.render.noise.is_none() || !scene.render.integrator.takes_samples() {
+        return 0;
+    }
+    let (across, down) = (scene.picture.width.div_ceil(CELL), scene.picture.height.div_ceil(CELL));
+    let (across, down) = (u64::from(across), u64::from(down));
+    let cells = (4 * (across + down)).min(across * down);
+    cells * u64::from(CELL) * u64::from(CELL) * BESIDE
 }
 
 /// How many rows of a picture so wide are sampled together, where pixels share samples: as many as a row of tiles has, or
@@ -173,5 +189,28 @@ impl Lists {
                 self.sizes(top_radii);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What lies beside a crop is along its edges; of a picture no larger than that, no more than all of it.
+    #[test]
+    fn what_lies_beside_a_crop_is_counted() {
+        let of = |width, height, noise| {
+            let mut scene = Scene::default();
+            (scene.picture.width, scene.picture.height) = (width, height);
+            (scene.render.integrator, scene.render.noise) = (durer_scene::Integrator::PATH, noise);
+            memory_needed(&scene)
+        };
+        let more = |width, height| of(width, height, Some(0.02)) - of(width, height, None);
+        assert_eq!(more(16, 16), 16 * 16 * BESIDE);
+        assert_eq!(more(800, 400), 4 * (100 + 50) * 64 * BESIDE);
+        let mut scene = Scene::default();
+        let without = memory_needed(&scene);
+        scene.render.noise = Some(0.02);
+        assert_eq!(memory_needed(&scene), without, "`whitted` aims at no noise");
     }
 }

@@ -57,7 +57,10 @@ pub(crate) fn render_samples<I: Integrator>(
     while !film.is_complete() {
         if let Some(noise) = noise {
             noise.look_at(film);
-            around.follow(film, (noise, goal.samples.count()), &sampling, progress);
+            // All that lies beside a film is taken once more when the film is gone on with: not if the time is over.
+            if !clock.is_over(progress.elapsed(), film) {
+                around.follow(film, (noise, goal.samples.count()), &sampling, progress);
+            }
             if progress.stop() {
                 return;
             }
@@ -159,18 +162,25 @@ struct Clock {
 }
 
 impl Clock {
+    /// True if no more samples are to be begun. One sample of each pixel is the least that a picture has.
+    fn is_over(&self, now: Option<f64>, film: &Film) -> bool {
+        let is_late = self.limit.zip(now).is_some_and(|(limit, now)| now >= limit);
+        is_late && film.sums().is_none_or(|sums| sums.least_and_most().0 > 0)
+    }
+
     /// How many samples there is time for after those that the film has.
     fn most_samples(&mut self, now: Option<f64>, film: &Film) -> u64 {
         let (Some(limit), Some(now)) = (self.limit, now) else { return u64::MAX };
         let (then, before) = *self.begun.get_or_insert((now, film.done()));
-        let gained = film.done().saturating_sub(before);
-        match (gained, now < limit) {
+        if self.is_over(Some(now), film) {
+            return 0;
+        }
+        match film.done().saturating_sub(before) {
+            // Late, but without a picture.
+            _ if now >= limit => film.region().pixels(),
             // Nothing is known of the speed: one sample of each pixel.
-            (0, true) => film.region().pixels(),
-            // One sample of each pixel is the least that a picture has.
-            (_, false) if film.sums().is_some_and(|sums| sums.least_and_most().0 == 0) => film.region().pixels(),
-            (_, false) => 0,
-            (gained, true) => {
+            0 => film.region().pixels(),
+            gained => {
                 let more = (limit - now) / (now - then).max(1e-9) * gained as f64;
                 more.min(u64::MAX as f64) as u64
             }

@@ -3,6 +3,7 @@
 use super::*;
 use crate::compile::compile;
 use crate::film::{MergeError, SampleRange};
+use crate::observer::Observer;
 use crate::schedule::{RenderOptions, render, render_on};
 use durer_math::{DVec3, Rgb};
 use durer_scene::{
@@ -133,6 +134,37 @@ fn time_ends_with_whole_passes() {
     let late = scene(64, 64, |settings| (settings.time, settings.samples) = (Some(0.5), None));
     let film = render(&late, &options(1), &Ticking(Mutex::new(3.0))).unwrap();
     assert_eq!(film.sums().unwrap().least_and_most(), (1, 1));
+}
+
+/// Counts what is asked of it.
+struct Counting(AtomicU64);
+
+impl Integrator for Counting {
+    fn radiance<O: Observer>(&self, _: &CompiledScene, ray: &Ray, _: Known<'_>, _: &Sampler, _: &mut O) -> Rgb {
+        self.0.fetch_add(1, Ordering::Relaxed);
+        Rgb::gray(if ray.direction.x > 0.0 { 1.0 } else { 0.5 })
+    }
+}
+
+/// A crop that aims at noise needs what lies beside it once more; not if the time was over before.
+#[test]
+fn a_crop_whose_time_is_over_takes_nothing_beside_it() {
+    let scene = scene(64, 64, |settings| (settings.noise, settings.samples) = (Some(0.001), Some(500)));
+    let region = Region { x: 20, y: 20, width: 10, height: 10 };
+    let goal = Goal { samples: SampleRange { start: 0, end: 500 }, noise: Some(0.001), time: Some(50.0) };
+    let integrator = Counting(AtomicU64::new(0));
+    let mut film = Film::of_samples(region, goal.samples, false);
+    render_samples((&scene, &integrator), goal, &mut film, &After(AtomicU64::new(5)));
+    assert!(!film.is_complete() && film.done() > 0);
+    let run = |clock: f64| {
+        let (mut film, before) = (film.clone(), integrator.0.load(Ordering::Relaxed));
+        render_samples((&scene, &integrator), goal, &mut film, &Ticking(Mutex::new(clock)));
+        assert!(film.is_complete());
+        (film.done(), integrator.0.load(Ordering::Relaxed) - before)
+    };
+    assert_eq!(run(50.0), (film.done(), 0));
+    let (done, asked) = run(49.0);
+    assert!(asked > done - film.done() && asked > 0, "in time, all beside it is taken: {asked}");
 }
 
 #[test]
