@@ -25,6 +25,8 @@ pub enum MergeError {
     },
     /// The film with this index is not that of its outline, or was added before.
     Another(usize),
+    /// They are of more pieces than are put together at once.
+    TooMany,
     /// They are parts of so many pieces, or so far apart, that together they would be too large.
     TooScattered,
 }
@@ -38,6 +40,9 @@ impl std::fmt::Display for MergeError {
             MergeError::OtherKind(_) => write!(f, "it has other layers than the films before it"),
             MergeError::Overlap { both, .. } => write!(f, "both have {both}"),
             MergeError::Another(_) => write!(f, "it is not what it says, or changed while it was read"),
+            MergeError::TooMany => {
+                write!(f, "they have more than {MOST_AT_ONCE} pieces; merge some of them first, those side by side")
+            }
             MergeError::TooScattered => write!(f, "they are too many pieces, or too far apart"),
         }
     }
@@ -47,6 +52,8 @@ impl std::error::Error for MergeError {}
 
 /// What lies between films may take up so many times their own pixels.
 const MOST_EMPTY: u64 = 16;
+/// More pieces are not put together at once, since each is compared with many others.
+const MOST_AT_ONCE: usize = 1 << 16;
 /// Pieces of which something is missing are not searched any further.
 const MOST_PIECES: usize = 4096;
 
@@ -89,22 +96,23 @@ impl Merging {
         can_be_merged(&outlines)?;
         let all: Vec<Part> = outlines.iter().flat_map(|film| &film.parts).copied().collect();
         let of: Vec<usize> = outlines.iter().enumerate().flat_map(|(at, film)| vec![at; film.parts.len()]).collect();
-        if all.len() > super::sums::MOST_PARTS {
-            return Err(MergeError::TooScattered);
+        if all.len() > MOST_AT_ONCE {
+            return Err(MergeError::TooMany);
         }
-        for (index, part) in all.iter().enumerate() {
-            let other = all[..index].iter().enumerate().find_map(|(at, other)| Some((at, part.both(other)?)));
-            if let Some((at, both)) = other {
-                return Err(MergeError::Overlap { first: of[at], second: of[index], both });
-            }
+        if let Some((first, second, both)) = first_overlap(&all) {
+            return Err(MergeError::Overlap { first: of[first], second: of[second], both });
         }
         let around = Part::around(&all).ok_or(MergeError::Nothing)?;
         let pixels = outlines.iter().map(|film| film.region.pixels()).fold(0, u64::saturating_add);
         if around.region.pixels() > pixels.saturating_mul(MOST_EMPTY) {
             return Err(MergeError::TooScattered);
         }
+        let parts = joined(all, around);
+        if parts.len() > super::sums::MOST_PARTS {
+            return Err(MergeError::TooScattered);
+        }
         let direct = outlines.first().is_some_and(|film| film.direct);
-        let sums = Sums { parts: joined(all, around), ..Sums::new(around, direct) };
+        let sums = Sums { parts, ..Sums::new(around, direct) };
         Ok(Merging { outlines, region: around.region, sums, account: Account::default() })
     }
 
@@ -204,6 +212,23 @@ fn can_be_merged(films: &[FilmOutline]) -> Result<(), MergeError> {
         }
     }
     if films.is_empty() { Err(MergeError::Nothing) } else { Ok(()) }
+}
+
+/// The first part that has samples of one before it, and the first such: the index of this, its own, and what both have.
+fn first_overlap(parts: &[Part]) -> Option<(usize, usize, Part)> {
+    // In the order of their first samples: those that begin after the last sample of one are not compared with it.
+    let mut sorted: Vec<usize> = (0..parts.len()).collect();
+    sorted.sort_by_key(|&index| parts[index].samples.start);
+    let mut first: Option<(usize, usize)> = None;
+    for (at, &one) in sorted.iter().enumerate() {
+        let end = parts[one].samples.end;
+        let near = sorted[at + 1..].iter().take_while(|&&other| parts[other].samples.start < end);
+        for &other in near.filter(|&&other| parts[one].both(&parts[other]).is_some()) {
+            let pair = (one.max(other), one.min(other));
+            first = Some(first.map_or(pair, |first| first.min(pair)));
+        }
+    }
+    first.and_then(|(second, first)| Some((first, second, parts[first].both(&parts[second])?)))
 }
 
 /// Parts in as few pieces as is easy: one, if nothing is missing.
@@ -354,6 +379,38 @@ mod tests {
         join(&mut reversed);
         assert_eq!(pieces, [part(0, 0, 5, 64, 0..9), part(6, 0, 26, 64, 0..9)]);
         assert_eq!(reversed, pieces);
+    }
+
+    /// What counts is how many pieces are left.
+    #[test]
+    fn more_films_are_merged_than_a_film_has_parts() {
+        let outline =
+            |part: Part| FilmOutline { region: part.region, parts: vec![part], direct: false, is_complete: true };
+        let films = |step: u32| {
+            (0..5000).map(|n| outline(part(n % 50 * step, n / 50, 1, 1, 3..5))).collect::<Vec<FilmOutline>>()
+        };
+        assert_eq!(Merging::new(films(1)).unwrap().sums.parts, [part(0, 0, 50, 100, 3..5)]);
+        // Columns with one between them.
+        assert_eq!(Merging::new(films(2)).unwrap().sums.parts.len(), 50);
+        let many = (0..70_000).map(|n| outline(part(0, 0, 1, 1, n..n + 1))).collect();
+        assert_eq!(Merging::new(many).unwrap_err(), MergeError::TooMany);
+        let scattered = (0..5000).map(|n| outline(part(n % 50 * 2, n / 50 * 2, 1, 1, 3..5))).collect();
+        assert_eq!(Merging::new(scattered).unwrap_err(), MergeError::TooScattered);
+    }
+
+    /// In whatever order they are looked through, as if each were compared with all before it.
+    #[test]
+    fn the_first_overlap_is_found() {
+        let parts = [
+            part(0, 0, 4, 4, 8..16),
+            part(4, 0, 4, 4, 0..16),
+            part(0, 0, 4, 4, 0..8),
+            part(3, 3, 2, 2, 0..1),
+            part(0, 0, 9, 9, 2..3),
+        ];
+        assert_eq!(first_overlap(&parts), Some((1, 3, part(4, 3, 1, 1, 0..1))));
+        assert_eq!(first_overlap(&parts[..3]), None);
+        assert_eq!(first_overlap(&[parts[4], parts[0], parts[1]]), Some((0, 2, part(4, 0, 4, 4, 2..3))));
     }
 
     #[test]
