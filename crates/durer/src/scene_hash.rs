@@ -89,8 +89,19 @@ fn item_of(name: &str) -> SceneItem<'_> {
 /// Each setting by its name, written so that no two values are written alike.
 fn settings(picture: &Picture, render: &RenderSettings) -> impl Iterator<Item = (&'static str, String)> {
     let Picture { width, height, transfer, exposure, tone_mapping } = picture;
-    let RenderSettings { integrator, samples, noise, time, seed, light_samples, max_depth, min_weight, .. } = render;
-    let RenderSettings { antialias, filter, trees, .. } = render;
+    let RenderSettings {
+        integrator,
+        samples,
+        noise,
+        time,
+        seed,
+        light_samples,
+        max_depth,
+        min_weight,
+        antialias,
+        filter,
+        trees,
+    } = render;
     [
         ("width", width as &dyn Debug),
         ("height", height),
