@@ -170,8 +170,12 @@ fn parts_with_noise_are_merged_to_the_bytes_of_one_run() {
 #[test]
 fn parts_where_nothing_is_noisy_are_merged_to_the_bytes_of_one_run() {
     let workshop = workshop();
-    workshop
-        .put("noise.yaml", &BALL.replace("samples: 8", "samples: 150, noise: 0.03").replace("- plane", "# - plane"));
+    workshop.put(
+        "noise.yaml",
+        "picture: {width: 60, height: 40}\nrender: {integrator: path, samples: 150, noise: 0.02}\n\
+         camera: {position: [0, 0, 12], look_at: [0, 0, 0], fov: 40}\nbackground: skyblue\n\
+         objects:\n- sphere: {material: {matte: {color: tomato}}}\n",
+    );
     workshop.fine("render noise.yaml -o whole.film");
     workshop.fine("render noise.yaml --crop 0,0,10,40 -o sky.film");
     workshop.fine("render noise.yaml --crop 10,0,50,40 -o ball.film");
