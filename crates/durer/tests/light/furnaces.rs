@@ -22,7 +22,7 @@ fn half_of_a_ball_of_glass() {
     for glass in [
         "glass: {opacity: 0.5}",
         "glass: {opacity: 0.2, ior: 3}",
-        "principled: {color: 1, transmission: 1, roughness: 0, opacity: 0.5}",
+        "principled: {base_color: 1, transmission: 1, roughness: 0, opacity: 0.5}",
     ] {
         let scene = format!(
             "background: 1\nlights: []\n\
