@@ -147,7 +147,7 @@ pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
 
 /// The mean luminance of the emission of each material, wherever its texture is taken from; the default material's is last.
 fn mean_emission(materials: &[Material], scene: &Scene) -> Vec<f64> {
-    let mut means = Means::new(scene);
+    let mut means = Means::of_light(scene);
     let mut mean = |emission: &durer_scene::Emission| {
         f64::from((means.of(emission.color) * emission.strength).luminance()).max(0.0)
     };

@@ -4,7 +4,7 @@ mod relief;
 mod textured;
 
 use crate::bsdf::Bsdf;
-use crate::compile::{CompiledScene, PlacedObject};
+use crate::compile::{CompiledScene, OPAQUE, PlacedObject};
 use crate::frame::Frame;
 use crate::materials::{Material, Side, on_side, reflect};
 use crate::surfaces::Indices;
@@ -281,8 +281,8 @@ pub(crate) fn highlight(shading: &Shading<'_>, to_light: DVec3) -> f32 {
 
 /// A hit of a mesh whose corners bend away, shaded with this normal: light that still comes over the rounder surface that its
 /// normals tell of is not cut off by the triangle's plane, and rays start from there so that no other triangle of it is in their
-/// way (Hanika 2021, see [`durer_geometry::Primitive::lift`]). What another thing would be between, as where two touch, stays as
-/// it is, and so does what light passes.
+/// way (Hanika 2021, see [`durer_geometry::Primitive::lift`]). What something opaque would be between, as where two touch,
+/// stays as it is, and so does what light passes.
 fn rounded(scene: &CompiledScene, shading: &Shading<'_>, normal: DVec3) -> Option<Smooth> {
     let looks = &scene.objects[shading.primitive as usize].looks;
     if looks.is_medium || looks.is_clear {
@@ -296,7 +296,7 @@ fn rounded(scene: &CompiledScene, shading: &Shading<'_>, normal: DVec3) -> Optio
         return None;
     }
     let way = Ray { origin: point + shading.face * offset, direction: lift / length };
-    let is_free = !scene.world.any_hit(&way, length, None, |_, _| true);
+    let is_free = !scene.world.any_hit(&way, length, None, |_, primitive| primitive.mask & OPAQUE != 0);
     is_free.then_some(Smooth { normal, ground: normal, horizon: normal, lift })
 }
 

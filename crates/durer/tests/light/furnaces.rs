@@ -14,3 +14,21 @@ fn inside_of_a_glowing_ball() {
         assert_pixel("{path: {max_depth: 1000}}", 512, &scene, 1.0 / (1.0 - albedo));
     }
 }
+
+/// What loses no light cannot be seen in a sky that is even, where half of it is missing, too: what is squeezed into glass comes
+/// out again through holes.
+#[test]
+fn half_of_a_ball_of_glass() {
+    for glass in [
+        "glass: {opacity: 0.5}",
+        "glass: {opacity: 0.2, ior: 3}",
+        "principled: {base_color: 1, transmission: 1, roughness: 0, opacity: 0.5}",
+    ] {
+        let scene = format!(
+            "background: 1\nlights: []\n\
+             camera: {{position: [0.4, 0.2, 5], look_at: [0.4, 0.2, 0]}}\n\
+             objects: [sphere: {{material: {{{glass}}}}}]\n"
+        );
+        assert_pixel("{path: {max_depth: 1000}}", 4096, &scene, 1.0);
+    }
+}

@@ -160,7 +160,7 @@ pub(crate) fn several_kinds(first: &Entry, others: &[Entry], noun: &str, words: 
         (Some(kind), None) => {
             let word = name(kind);
             let stray = entries().find(|entry| name(entry) != word).unwrap_or(first);
-            let message = format!("`{}` stands beside `{word}`, not in it", shorten(&name(stray)));
+            let message = format!("`{}` must stand in `{word}`, not beside it", shorten(&name(stray)));
             let help = format!("indent it further than `{word}`, or write `{word}: {{{}: …}}`", shorten(&name(stray)));
             Complaint::error(stray.0.span, message).help(help).also(kind.0.span, "the kind")
         }

@@ -5,8 +5,8 @@ mod textured;
 use super::LightSample;
 use super::tree::{Cone, Faces, Item};
 use crate::compile::CompiledScene;
-use crate::shading::Shading;
-use durer_geometry::{Aim, Aimable, Crossing, Hit, Ray};
+use crate::shading::Textured;
+use durer_geometry::{Aim, Aimable, Crossing, Hit};
 use durer_math::{DVec2, DVec3, Rgb};
 use durer_scene::{Emission, Integrator, Paint, Sides};
 use rayon::prelude::*;
@@ -102,7 +102,7 @@ impl Shapes {
         let light = match plain {
             Some((light, sides)) if *sides == Sides::Both || aim.direction.dot(aim.surface.normal) < 0.0 => *light,
             Some(_) => return None,
-            None => given_off(scene, primitive, &aim, from),
+            None => given_off(scene, primitive, &aim),
         };
         let Aim { direction, distance, pdf, .. } = aim;
         (!light.is_black()).then_some(LightSample { direction, distance, light, pdf, is_point: false, lamp: None })
@@ -144,10 +144,16 @@ fn emission_of(scene: &CompiledScene, primitive: u32, part: u32) -> Option<Emiss
 }
 
 /// The radiance from a point on a primitive to one that sees it; of what is but partly there, that part.
-fn given_off(scene: &CompiledScene, primitive: u32, aim: &Aim, from: DVec3) -> Rgb {
+fn given_off(scene: &CompiledScene, primitive: u32, aim: &Aim) -> Rgb {
     let hit = Hit { crossing: Crossing { t: aim.distance, part: aim.part }, primitive };
-    let shading = Shading::at(scene, &Ray { origin: from, direction: aim.direction }, &hit);
-    shading.opacity.map_or(shading.emission, |opacity| shading.emission * opacity)
+    let material = &scene.materials[scene.material_at(&hit) as usize];
+    if !material.glows(aim.direction.dot(aim.surface.normal) < 0.0) {
+        return Rgb::BLACK;
+    }
+    let object = &scene.objects[primitive as usize];
+    let textured = Textured { scene, object, surface: &aim.surface, hit: &hit };
+    let emission = textured.emission(material);
+    material.opacity.map_or(emission, |opacity| emission * textured.opacity(opacity))
 }
 
 /// What an element gives off, if that is the same everywhere on it.

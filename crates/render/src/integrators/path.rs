@@ -145,7 +145,13 @@ impl<O: Observer> Path<'_, O> {
             if self.sampler.one(self.step(), Purpose::Opacity) >= f64::from(there) {
                 self.state.weight *= (Rgb::WHITE - opacity) * (1.0 / (1.0 - there));
                 // No medium begins where a surface is not, but one that the ray is in ends.
+                let before = self.media.ior(scene);
                 self.pass(&shading, shading.bounds_medium && !shading.from_outside);
+                // Radiance is squeezed where it enters a denser medium, and spreads again where it leaves that, through a hole, too.
+                let stretch = before / self.media.ior(scene);
+                let stretch = (stretch * stretch) as f32;
+                self.state.weight = self.state.weight * stretch;
+                self.state.scale *= stretch;
                 return true;
             }
             self.state.weight *= opacity * (1.0 / there);

@@ -9,10 +9,10 @@ use durer_scene::Paint;
 
 /// A hit as textures see it.
 pub(crate) struct Textured<'a> {
-    pub(super) scene: &'a CompiledScene,
-    pub(super) object: &'a PlacedObject,
-    pub(super) surface: &'a Surface,
-    pub(super) hit: &'a Hit,
+    pub(crate) scene: &'a CompiledScene,
+    pub(crate) object: &'a PlacedObject,
+    pub(crate) surface: &'a Surface,
+    pub(crate) hit: &'a Hit,
 }
 
 impl Textured<'_> {
@@ -48,7 +48,7 @@ impl Textured<'_> {
     }
 
     /// What the surface gives off, on a side that does. Colors of the surface's own have no part in it, unless it is unlit.
-    pub(super) fn emission(&self, material: &Material) -> Rgb {
+    pub(crate) fn emission(&self, material: &Material) -> Rgb {
         if material.is_unlit {
             return self.color(material.color) * self.scene.ambient * material.ambient;
         }
@@ -79,7 +79,7 @@ impl Textured<'_> {
     }
 
     /// From 0 to 1, whatever an image may hold.
-    pub(super) fn opacity(&self, paint: Paint) -> Rgb {
+    pub(crate) fn opacity(&self, paint: Paint) -> Rgb {
         self.part(paint)
     }
 }

@@ -8,18 +8,25 @@ use std::collections::BTreeMap;
 /// The means of the textures of a scene; each is computed once, when it is asked for.
 pub(crate) struct Means<'s> {
     scene: &'s Scene,
+    /// No component of an image's mean is more.
+    most: f64,
     known: BTreeMap<u32, Rgb>,
     /// Of whole images, by their number and whether they are taken as sRGB.
     images: BTreeMap<(u32, bool), Rgb>,
 }
 
 impl<'s> Means<'s> {
-    /// Those of a scene that passed its check.
+    /// Those of parts of light that is given back, in a scene that passed its check.
     pub(crate) fn new(scene: &'s Scene) -> Means<'s> {
-        Means { scene, known: BTreeMap::new(), images: BTreeMap::new() }
+        Means { scene, most: 1.0, known: BTreeMap::new(), images: BTreeMap::new() }
     }
 
-    /// The mean color, each component from 0 to 1 where a texture says it.
+    /// Those of light that is given off.
+    pub(crate) fn of_light(scene: &'s Scene) -> Means<'s> {
+        Means { most: f64::MAX, ..Means::new(scene) }
+    }
+
+    /// The mean color.
     pub(crate) fn of(&mut self, paint: Paint) -> Rgb {
         match paint {
             Paint::Color(color) => color,
@@ -72,7 +79,7 @@ impl<'s> Means<'s> {
     fn of_image(&mut self, texture: &ImageTexture) -> Rgb {
         let bitmap = &self.scene.images[texture.image.0 as usize].bitmap;
         let key = (texture.image.0, texture.encoding == Encoding::Srgb);
-        let mut colors = || *self.images.entry(key).or_insert_with(|| mean(bitmap, texture.encoding));
+        let mut colors = || *self.images.entry(key).or_insert_with(|| mean(bitmap, texture.encoding, self.most));
         let mean = match texture.channels {
             Channels::Color => colors(),
             Channels::Red => Rgb::gray(colors().r),
@@ -84,8 +91,8 @@ impl<'s> Means<'s> {
     }
 }
 
-/// The mean of a picture's colors, linear, each component from 0 to 1.
-fn mean(bitmap: &Bitmap, encoding: Encoding) -> Rgb {
+/// The mean of a picture's colors, linear, each component from 0 to this.
+fn mean(bitmap: &Bitmap, encoding: Encoding, most: f64) -> Rgb {
     let transfer = match encoding {
         Encoding::Srgb => Transfer::Srgb,
         Encoding::Linear => Transfer::Linear,
@@ -100,7 +107,7 @@ fn mean(bitmap: &Bitmap, encoding: Encoding) -> Rgb {
         Texels::F32(texels) => texels.iter().fold(DVec3::ZERO, |sum, texel| sum + DVec3::from(texel.map(f64::from))),
     };
     let mean = sum / (f64::from(bitmap.width) * f64::from(bitmap.height));
-    Rgb::from(mean.to_array().map(|component| component.clamp(0.0, 1.0) as f32))
+    Rgb::from(mean.to_array().map(|component| component.clamp(0.0, most) as f32))
 }
 
 /// The sum of what the numbers of texels stand for.

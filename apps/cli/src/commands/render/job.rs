@@ -102,6 +102,9 @@ impl Job<'_> {
                 "`{integrator}` takes no samples, of which there could be parts or a film; `path` does"
             )));
         }
+        if arguments.sample_range.is_some() && scene.scene().render.noise.is_some() {
+            output::warning("--sample-range takes all of its samples: `noise` is not followed");
+        }
         let picture = scene.scene().picture;
         (options.transfer, options.exposure, options.tone_mapping) =
             (picture.transfer, picture.exposure, picture.tone_mapping);

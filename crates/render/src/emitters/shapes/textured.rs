@@ -42,7 +42,7 @@ pub(super) fn luminance(scene: &CompiledScene, element: &Element, extent: &Exten
             let across = (f64::from(look) + 0.5) / f64::from(each);
             let up = (f64::from(look.reverse_bits()) + 0.5) / 4_294_967_296.0;
             if let Some(aim) = shape.aim(&aimable, from, DVec2::new(across, up)) {
-                sum += f64::from(given_off(scene, element.primitive, &aim, from).luminance());
+                sum += f64::from(given_off(scene, element.primitive, &aim).luminance());
                 count += 1.0;
             }
         }

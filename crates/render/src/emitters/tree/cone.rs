@@ -54,7 +54,11 @@ impl Cone {
     pub(crate) fn of_spot(axis: DVec3, inner: f64, outer: f64) -> Cone {
         // The cosine of the difference.
         let spread = inner * outer + ((1.0 - inner * inner).max(0.0) * (1.0 - outer * outer).max(0.0)).sqrt();
-        Cone { axis, cosine: inner, spread: spread.clamp(0.0, 1.0), faces: Faces::Front }
+        // Those that shine behind what is a right angle from their inner part: the tree's nodes do not tell them from the rest.
+        if spread <= 0.0 {
+            return Cone::ALL;
+        }
+        Cone { axis, cosine: inner, spread: spread.min(1.0), faces: Faces::Front }
     }
 
     /// The most, from 0 to 1, that a surface with a normal in the cone shows in a direction, if that is known but for an angle

@@ -18,11 +18,12 @@ fn items(count: u32) -> Vec<Item> {
     let item = |id: u32| {
         let (middle, size) = (vector(1, id) * 10.0, 0.3 * number(5, id));
         let axis = vector(7, id).normalize();
-        let cone = match id % 5 {
+        let cone = match id % 6 {
             0 => Cone::of(axis, Faces::Front),
             1 => Cone::of(axis, Faces::Both),
             2 => Cone::ALL,
             3 => Cone::of_spot(axis, 0.95, 0.8),
+            4 => Cone::of_spot(axis, 1.0, -0.9),
             _ => Cone { axis, cosine: 0.5, spread: 0.0, faces: Faces::Closed },
         };
         Item::new(&Bounds { min: middle, max: middle }.widened(size), 0.01 + number(11, id), cone, id)
