@@ -3,14 +3,16 @@
 //! Builds the targets as cargo-fuzz does without a sanitizer, so that stable Rust is enough and cargo-fuzz need not be
 //! there; `cargo fuzz run -s none TARGET` finds the same folders.
 
+mod mutants;
+
 use crate::shell;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 pub(crate) const USAGE: &str = "  \
   fuzz [--seconds N | --tries N] [TARGET ...]
-                            try made-up input: each target, or only these, for 30 seconds or N; or N tries that are the
-                            same each time";
+                            try made-up input: each target, or only these, for 30 seconds or N, led by what it reaches
+                            in the code; or N tries that are the same each time";
 
 /// The instrumentation of cargo-fuzz: the fuzzer learns which branches were taken and what was compared with what.
 /// Overflow and failed assertions count as findings.
@@ -45,7 +47,8 @@ struct Plan<'a> {
 enum Length {
     /// With luck of its own each time, and what earlier runs have gathered.
     Seconds(u32),
-    /// The same tries each time, so that only a change of the code can bring a finding.
+    /// The same tries each time, so that only a change of the code or of the seeds can bring a finding. The fuzzer's own
+    /// never are: they are led by what the code does, and that depends on addresses and on the order of hash tables.
     Tries(u32),
 }
 
@@ -106,17 +109,15 @@ fn fuzz(folder: &Path, built: &Path, target: &str, length: Length) -> Result<(),
             command.arg(corpus).arg(format!("-max_total_time={seconds}"));
         }
         Length::Tries(tries) => {
-            let corpus = built.join("corpus").join(target);
-            // Empty, for what is gathered goes to the first folder.
-            let _ = std::fs::remove_dir_all(&corpus);
-            create(&corpus)?;
-            command.arg(corpus).args([format!("-runs={tries}"), "-seed=1".to_owned()]);
+            let made = built.join("tries").join(target);
+            make_mutants(&seeds(folder, target), &made, tries)?;
+            command.arg(made).arg("-runs=0");
         }
     }
     command.args(seeds(folder, target));
     command.arg(format!("-artifact_prefix={}/", findings.display()));
     command.arg(format!("-timeout={MOST_SECONDS}"));
-    command.args([format!("-rss_limit_mb={MOST_MEMORY}"), "-max_len=8192".to_owned()]);
+    command.args([format!("-rss_limit_mb={MOST_MEMORY}"), format!("-max_len={}", mutants::MOST_BYTES)]);
     let output = command.output().map_err(|error| format!("{target}: {error}"))?;
     // Thousands of lines, of which one tells, unless something was found.
     let told = String::from_utf8_lossy(&output.stderr);
@@ -132,6 +133,28 @@ fn fuzz(folder: &Path, built: &Path, target: &str, length: Length) -> Result<(),
         "{target}: {}\n{end}\nmend it, and move the file from {folder} to fuzz/regressions/{target}",
         output.status
     ))
+}
+
+/// Fills the folder with so many mutants of what is in these.
+fn make_mutants(seeds: &[PathBuf], folder: &Path, count: u32) -> Result<(), String> {
+    let wrong = |path: &Path, error: std::io::Error| format!("{}: {error}", path.display());
+    let mut files = Vec::new();
+    for seeds in seeds {
+        for file in std::fs::read_dir(seeds).map_err(|error| wrong(seeds, error))? {
+            files.push(file.map_err(|error| wrong(seeds, error))?.path());
+        }
+    }
+    files.retain(|path| path.is_file());
+    files.sort_unstable();
+    let read = |path: &PathBuf| std::fs::read(path).map_err(|error| wrong(path, error));
+    let seeds = files.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let _ = std::fs::remove_dir_all(folder);
+    create(folder)?;
+    for number in 0..count {
+        let path = folder.join(format!("{number:07}"));
+        std::fs::write(&path, mutants::mutant(&seeds, number)).map_err(|error| wrong(&path, error))?;
+    }
+    Ok(())
 }
 
 fn create(folder: &Path) -> Result<(), String> {

@@ -231,7 +231,8 @@ pub(crate) struct Refracted {
 /// `direction` has unit length and goes against the unit `normal`; `eta` is the index of refraction before the surface
 /// divided by that behind it. Born and Wolf, Principles of Optics, §1.5.
 pub(crate) fn refract(direction: DVec3, normal: DVec3, eta: f64) -> Option<Refracted> {
-    let cos_i = -direction.dot(normal);
+    // A shading normal that is edge-on may be so by a rounding on the other side.
+    let cos_i = (-direction.dot(normal)).max(0.0);
     let sin2_t = eta * eta * (1.0 - cos_i * cos_i).max(0.0);
     if sin2_t >= 1.0 {
         return None;
@@ -319,6 +320,14 @@ mod tests {
             let inside = refract(at_angle(degrees), DVec3::Y, 1.5).unwrap();
             let back = refract(inside.direction, DVec3::Y, 1.0 / 1.5).unwrap();
             assert!((inside.reflectance - back.reflectance).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn no_more_than_all_is_reflected_by_normals_seen_from_behind() {
+        for eta in [0.5, 1.0 / 1.5, 1.2] {
+            let edge_on = refract(DVec3::X, DVec3::new(1e-17, 1.0, 0.0), eta);
+            assert!(edge_on.is_none_or(|refracted| refracted.reflectance <= 1.0), "{eta}");
         }
     }
 

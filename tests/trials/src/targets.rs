@@ -153,37 +153,33 @@ fn mean_unlike(explained: &PixelExplanation, shown: Rgb) -> Option<[f64; 3]> {
     (!is_alike).then_some(sum)
 }
 
-/// Renders a scene, on one thread.
+/// Renders a scene.
 ///
 /// # Errors
 /// What is wrong with the picture: all colors must be finite and none negative, and `explain` must agree.
 pub fn picture(scene: &CheckedScene) -> Result<Image, String> {
-    let rendered = durer::with_threads(Some(1), || {
-        let compiled = durer::compile(scene);
-        let film = durer::render(&compiled, &RenderOptions::default(), &()).map_err(|error| error.to_string())?;
-        if let Some(sample) = film.first_bad_sample() {
-            return Err(format!("{} samples are not finite, the first at {}", film.bad_samples(), sample.at));
-        }
-        let image = film.develop();
-        let (x, y) = (image.width / 2, image.height / 3);
-        let explained = durer::explain(&compiled, x, y);
-        let (color, shown) = (explained.as_ref().map(|explained| explained.color), image.pixel(x, y));
-        let wrong = |found: &dyn std::fmt::Debug| {
-            let integrator = scene.scene().render.integrator.word();
-            Err(format!("{integrator}: pixel {x},{y} is {shown:?}, but is explained as {found:?}"))
-        };
-        if color != Some(shown) {
-            return wrong(&color);
-        }
-        match explained.filter(|explained| explained.is_mean).and_then(|explained| mean_unlike(&explained, shown)) {
-            Some(mean) => wrong(&mean),
-            None => Ok(image),
-        }
-    });
-    let image = rendered.map_err(|error| error.to_string())??;
+    let compiled = durer::compile(scene);
+    let film = durer::render(&compiled, &RenderOptions::default(), &()).map_err(|error| error.to_string())?;
+    if let Some(sample) = film.first_bad_sample() {
+        return Err(format!("{} samples are not finite, the first at {}", film.bad_samples(), sample.at));
+    }
+    let image = film.develop();
     let is_color = |pixel: &Rgb| pixel.is_finite() && pixel.min_component() >= 0.0;
-    match image.pixels.iter().find(|pixel| !is_color(pixel)) {
+    if let Some(pixel) = image.pixels.iter().find(|pixel| !is_color(pixel)) {
+        return Err(format!("{pixel:?} is no color"));
+    }
+    let (x, y) = (image.width / 2, image.height / 3);
+    let explained = durer::explain(&compiled, x, y);
+    let (color, shown) = (explained.as_ref().map(|explained| explained.color), image.pixel(x, y));
+    let wrong = |found: &dyn std::fmt::Debug| {
+        let integrator = scene.scene().render.integrator.word();
+        Err(format!("{integrator}: pixel {x},{y} is {shown:?}, but is explained as {found:?}"))
+    };
+    if color != Some(shown) {
+        return wrong(&color);
+    }
+    match explained.filter(|explained| explained.is_mean).and_then(|explained| mean_unlike(&explained, shown)) {
+        Some(mean) => wrong(&mean),
         None => Ok(image),
-        Some(pixel) => Err(format!("{pixel:?} is no color")),
     }
 }

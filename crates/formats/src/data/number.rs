@@ -70,7 +70,7 @@ fn exponent(bytes: &[u8], at: &mut usize) -> Option<i32> {
     let mut digits = 0;
     take_digits(bytes, at, &mut digits);
     let fits = (1..=3).contains(&(*at - start));
-    fits.then_some(if is_negative { -(digits as i32) } else { digits as i32 })
+    fits.then(|| if is_negative { -(digits as i32) } else { digits as i32 })
 }
 
 #[cfg(test)]
@@ -103,6 +103,7 @@ mod tests {
             "1e23",
             "1e-22",
             "1e-23",
+            "1e-2147483648",
             "9007199254740993",
             "9007199254740992",
             "0.30000000000000004",

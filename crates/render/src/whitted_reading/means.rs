@@ -8,22 +8,23 @@ use std::collections::BTreeMap;
 /// The means of the textures of a scene; each is computed once, when it is asked for.
 pub(crate) struct Means<'s> {
     scene: &'s Scene,
-    /// No component of an image's mean is more.
-    most: f64,
+    /// No component of a texture's mean is more.
+    most: f32,
     known: BTreeMap<u32, Rgb>,
     /// Of whole images, by their number and whether they are taken as sRGB.
     images: BTreeMap<(u32, bool), Rgb>,
 }
 
 impl<'s> Means<'s> {
-    /// Those of parts of light that is given back, in a scene that passed its check.
+    /// Those of parts of light that is given back, in a scene that passed its check: at most 1, though a picture may hold
+    /// more, and be tinted.
     pub(crate) fn new(scene: &'s Scene) -> Means<'s> {
         Means { scene, most: 1.0, known: BTreeMap::new(), images: BTreeMap::new() }
     }
 
     /// Those of light that is given off.
     pub(crate) fn of_light(scene: &'s Scene) -> Means<'s> {
-        Means { most: f64::MAX, ..Means::new(scene) }
+        Means { most: f32::MAX, ..Means::new(scene) }
     }
 
     /// The mean color.
@@ -34,7 +35,8 @@ impl<'s> Means<'s> {
                 if let Some(mean) = self.known.get(&id) {
                     return *mean;
                 }
-                let mean = self.of_pattern(&self.scene.textures[id as usize].pattern);
+                let most = self.most;
+                let mean = self.of_pattern(&self.scene.textures[id as usize].pattern).map(|part| part.min(most));
                 self.known.insert(id, mean);
                 mean
             }
@@ -79,7 +81,7 @@ impl<'s> Means<'s> {
     fn of_image(&mut self, texture: &ImageTexture) -> Rgb {
         let bitmap = &self.scene.images[texture.image.0 as usize].bitmap;
         let key = (texture.image.0, texture.encoding == Encoding::Srgb);
-        let mut colors = || *self.images.entry(key).or_insert_with(|| mean(bitmap, texture.encoding, self.most));
+        let mut colors = || *self.images.entry(key).or_insert_with(|| mean(bitmap, texture.encoding));
         let mean = match texture.channels {
             Channels::Color => colors(),
             Channels::Red => Rgb::gray(colors().r),
@@ -91,8 +93,8 @@ impl<'s> Means<'s> {
     }
 }
 
-/// The mean of a picture's colors, linear, each component from 0 to this.
-fn mean(bitmap: &Bitmap, encoding: Encoding, most: f64) -> Rgb {
+/// The mean of a picture's colors, linear.
+fn mean(bitmap: &Bitmap, encoding: Encoding) -> Rgb {
     let transfer = match encoding {
         Encoding::Srgb => Transfer::Srgb,
         Encoding::Linear => Transfer::Linear,
@@ -107,7 +109,7 @@ fn mean(bitmap: &Bitmap, encoding: Encoding, most: f64) -> Rgb {
         Texels::F32(texels) => texels.iter().fold(DVec3::ZERO, |sum, texel| sum + DVec3::from(texel.map(f64::from))),
     };
     let mean = sum / (f64::from(bitmap.width) * f64::from(bitmap.height));
-    Rgb::from(mean.to_array().map(|component| component.clamp(0.0, most) as f32))
+    Rgb::from(mean.to_array().map(|component| component.max(0.0) as f32))
 }
 
 /// The sum of what the numbers of texels stand for.
@@ -156,6 +158,18 @@ mod tests {
             assert!((found - expected).map(f32::abs).max_component() < 1e-6, "{id}: {found:?}");
         }
         assert!((means.amount(Paint::Texture(TextureId(3))) - 0.2).abs() < 1e-6);
+    }
+
+    #[test]
+    fn what_is_given_back_is_at_most_all_but_light_has_no_bound() {
+        let mut bright = image(Channels::Color);
+        if let Pattern::Image(image) = &mut bright {
+            image.tint = Rgb::new(1000.0, 2.0, 1.0);
+        }
+        let scene = scene(vec![bright]);
+        let texture = Paint::Texture(TextureId(0));
+        assert_eq!(Means::new(&scene).of(texture), Rgb::new(1.0, 1.0, 0.4));
+        assert_eq!(Means::of_light(&scene).of(texture), Rgb::new(1000.0, 1.0, 0.4));
     }
 
     #[test]
