@@ -138,9 +138,10 @@ impl Material {
         })
     }
 
-    /// True if what a closed shape of it encloses bends light or takes it away.
+    /// True if what a closed shape of it encloses bends light or takes it away. What is nowhere there encloses nothing.
     pub(crate) fn fills_with_medium(&self) -> bool {
-        self.is_clear() && (self.ior.is_some() || self.attenuation.is_some())
+        let is_nowhere = self.opacity == Some(Paint::Color(Rgb::BLACK));
+        !is_nowhere && self.is_clear() && (self.ior.is_some() || self.attenuation.is_some())
     }
 
     /// What is left of light after a length of the inside.

@@ -63,6 +63,11 @@ impl Indices {
     fn relative(self) -> Option<f64> {
         self.behind.map(|behind| behind / self.before)
     }
+
+    /// True at the boundary of a medium that bends light as what is before it does.
+    pub(crate) fn bend_nothing(self) -> bool {
+        self.relative().is_some_and(is_one)
+    }
 }
 
 /// Indices of refraction that differ by no more than this bend nothing.
@@ -95,7 +100,7 @@ impl Scattering {
     pub(crate) fn prepare(&self) {
         let any = || Ggx::of_roughness(0.5, 0.0);
         let rough_glass = |ior: f64, roughness: Paint| {
-            if !is_zero(roughness) && (ior - 1.0).abs() > EQUAL {
+            if !is_zero(roughness) && !is_one(ior) {
                 let _ = Dielectric::new(ior, Rgb::WHITE, any());
             }
         };
@@ -224,9 +229,14 @@ impl Glass {
     }
 }
 
+/// True for a relative index of refraction that bends nothing.
+fn is_one(eta: f64) -> bool {
+    (eta - 1.0).abs() < EQUAL
+}
+
 /// A boundary between dielectrics; where both are the same, light goes straight on.
 fn boundary(eta: f64, tint: Rgb, ggx: Option<Ggx>) -> Bsdf {
-    match (eta - 1.0).abs() < EQUAL {
+    match is_one(eta) {
         true => Bsdf::Clear(tint),
         false => Bsdf::Dielectric(Dielectric::new(eta, tint, ggx)),
     }
@@ -253,7 +263,7 @@ fn classic(classic: &durer_scene::Classic, color: Rgb, indices: Indices) -> Bsdf
         return Bsdf::Diffuse(scaled_down(parts.diffuse));
     }
     let through = match (classic.ior, indices.relative()) {
-        (Some(_), Some(eta)) if (eta - 1.0).abs() < EQUAL => Through::Clear,
+        (Some(_), Some(eta)) if is_one(eta) => Through::Clear,
         (Some(_), Some(eta)) if classic.fresnel => Through::Bent(Dielectric::new(eta, Rgb::WHITE, None)),
         (Some(_), Some(eta)) => Through::Bent(Dielectric::without_reflection(eta, Rgb::WHITE)),
         (Some(ior), None) if classic.fresnel => Through::Sheet(Sheet::new(ior / indices.before, Rgb::WHITE, None)),

@@ -76,6 +76,20 @@ fn there_is_fog_inside_clear_things() {
     }
 }
 
+/// Half of a ball is there and glows, and what shows past it is at the end of one straight way: 8 to the ball, 4 in it, 6 behind.
+#[test]
+fn past_what_is_there_in_part_fog_goes_on() {
+    let ball = "  - sphere: {center: [0, 0, 8], radius: 2, material: {color: 0.5, ambient: 1, opacity: 0.5}}\n";
+    let exponential = |d: f64| (-d / 20.0).exp();
+    let linear = |d: f64| ((25.0 - d) / 20.0).clamp(0.0, 1.0);
+    for (fog, visible) in [(EXPONENTIAL, &exponential as &dyn Fn(f64) -> f64), (LINEAR, &linear)] {
+        let [near, far, wall] =
+            [veiled([0.5; 3], visible(8.0)), veiled([0.5; 3], visible(12.0)), veiled(WALL, visible(18.0))];
+        let expected = std::array::from_fn(|i| 0.5 * near[i] + 0.25 * far[i] + 0.25 * wall[i]);
+        assert_color(look(&format!("{fog}{SCENE}{ball}"), [0.0, 0.0, 18.0], [0.0, 0.0, 0.0]).color, expected);
+    }
+}
+
 /// Light on its way from the lamp is not weakened.
 #[test]
 fn fog_does_not_dim_the_light_of_lamps() {

@@ -217,7 +217,12 @@ impl<O: Observer> Path<'_, O> {
             }
             How::Only => self.state.aimed = None,
         }
-        (self.state.depth, self.state.way) = (self.state.depth + 1, 0.0);
+        self.state.depth += 1;
+        // Where nothing is bent, it is as if there were no surface.
+        let is_straight = scattered.how == How::Only && passes && indices.bend_nothing();
+        if !is_straight {
+            self.state.way = 0.0;
+        }
         if passes {
             if shading.bounds_medium {
                 let _ = self.media.cross(shading.primitive, shading.from_outside);

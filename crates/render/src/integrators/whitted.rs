@@ -32,7 +32,7 @@ impl Integrator for Whitted {
         observer: &mut O,
     ) -> Rgb {
         let media = if scene.media_at_eye.is_empty() { Media::default() } else { Media::around(scene, ray) };
-        let mut path = Path { scene, sampler, lit: 0, media, sum: Rgb::BLACK, observer };
+        let mut path = Path { scene, sampler, lit: 0, media, way: 0.0, sum: Rgb::BLACK, observer };
         path.trace(RayKind::Eye, 1, ray, Rgb::WHITE, known);
         path.sum
     }
@@ -46,6 +46,8 @@ struct Path<'a, O> {
     lit: u32,
     /// Around the origin of the ray being traced.
     media: Media,
+    /// How far the light of the ray being traced has gone straight on through fog before, past what is not there.
+    way: f64,
     sum: Rgb,
     observer: &'a mut O,
 }
@@ -56,14 +58,20 @@ struct Boundary {
     onward: Option<DVec3>,
     /// The part of it that gets through and is not reflected.
     passed: f32,
+    /// True if light goes on as if there were nothing: what is on both sides bends it alike.
+    is_none: bool,
 }
+
+/// Fog begins anew behind a surface.
+const ANEW: f64 = 0.0;
 
 impl<O: Observer> Path<'_, O> {
     /// Adds what arrives along a ray, times its weight.
     fn trace(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb, known: Known<'_>) {
         self.observer.ray_begins(kind, depth, ray, weight);
         let met = find(self.scene, ray, known, self.observer);
-        let weight = self.along(met.length, weight, known.seen());
+        let way = self.way;
+        let weight = self.along(way, met.length, weight, known.seen());
         match met.hit {
             None => self.add(Source::Background, weight * self.scene.background.seen(ray.direction)),
             Some(hit) => {
@@ -80,23 +88,25 @@ impl<O: Observer> Path<'_, O> {
                 let there = opacity.map_or(weight, |opacity| weight * opacity);
                 if opacity.is_none_or(|opacity| !opacity.is_black()) {
                     self.shade(&shading, there, seen.filter(|_| !shading.is_smooth()));
-                    self.go_on(&shading, depth, there);
+                    self.go_on(&shading, depth, there, way + length);
                 }
                 if let Some(opacity) = opacity {
-                    self.go_past(&shading, depth, weight, opacity);
+                    self.go_past(&shading, depth, weight, opacity, way + length);
                 }
             }
         }
         self.observer.ray_ends();
     }
 
-    /// What the segment does to the light that comes along it; gives the weight of what is at its far end.
-    fn along(&mut self, length: f64, weight: Rgb, seen: Option<SeenAhead<'_>>) -> Rgb {
+    /// What a segment that goes straight on after such a way does to the light that comes along it; gives the weight of what is
+    /// at its far end.
+    fn along(&mut self, way: f64, length: f64, weight: Rgb, seen: Option<SeenAhead<'_>>) -> Rgb {
         let mut weight = weight;
         if let Some(fog) = &self.scene.fog {
             let veil = match seen {
                 Some(seen) => fog.veil_of(seen.visible_through_fog()),
-                None => fog.veil(length),
+                None if way == ANEW => fog.veil(length),
+                None => fog.veil_behind(way, length),
             };
             self.add(Source::Fog, weight * veil.color * (1.0 - veil.visible));
             weight = weight * veil.visible;
@@ -172,9 +182,10 @@ impl<O: Observer> Path<'_, O> {
         }
     }
 
-    /// The mirror image, and what lies behind.
+    /// The mirror image, and what lies behind; `way` is how far light has gone straight through fog from here to the eye, or to
+    /// where it was bent last.
     #[inline(always)]
-    fn go_on(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb) {
+    fn go_on(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb, way: f64) {
         let material = shading.material;
         if material.reflection.is_black() && !material.is_clear() {
             return;
@@ -184,7 +195,7 @@ impl<O: Observer> Path<'_, O> {
         // What cannot get through comes from the mirrored direction, like what a mirror adds: one ray serves both.
         let mirrored = weight * material.reflection + behind * (1.0 - boundary.passed);
         if !mirrored.is_black() {
-            self.follow(RayKind::Reflected, depth, &shading.mirrored(), mirrored);
+            self.follow(RayKind::Reflected, depth, &shading.mirrored(), mirrored, ANEW);
         }
         if material.is_clear()
             && let Some(direction) = boundary.onward
@@ -194,15 +205,16 @@ impl<O: Observer> Path<'_, O> {
                 false => Undo::Nothing,
             };
             let ray = shading.ray_on(direction);
-            self.follow(RayKind::Transmitted, depth, &ray, behind * boundary.passed);
+            let way = if boundary.is_none { way } else { ANEW };
+            self.follow(RayKind::Transmitted, depth, &ray, behind * boundary.passed, way);
             self.media.undo(undo);
         }
     }
 
     /// What lies behind where the surface is not there, of which so much is. No medium begins there, but one that the ray is in
-    /// ends.
+    /// ends; fog goes on as over the `way` before.
     #[inline(never)]
-    fn go_past(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb, opacity: Rgb) {
+    fn go_past(&mut self, shading: &Shading<'_>, depth: u32, weight: Rgb, opacity: Rgb, way: f64) {
         let weight = weight * (Rgb::WHITE - opacity);
         if weight.is_black() {
             return;
@@ -211,7 +223,7 @@ impl<O: Observer> Path<'_, O> {
             true => self.media.cross(shading.primitive, shading.from_outside),
             false => Undo::Nothing,
         };
-        self.follow(RayKind::Transmitted, depth, &shading.ray_on(shading.direction), weight);
+        self.follow(RayKind::Transmitted, depth, &shading.ray_on(shading.direction), weight, way);
         self.media.undo(undo);
     }
 
@@ -219,33 +231,35 @@ impl<O: Observer> Path<'_, O> {
     /// two such boundaries in the same place.
     fn boundary(&mut self, shading: &Shading<'_>) -> Boundary {
         let (direction, normal, material) = (shading.direction, shading.normal(), shading.material);
-        let straight = Boundary { onward: Some(direction), passed: 1.0 };
+        let straight = Boundary { onward: Some(direction), passed: 1.0, is_none: false };
         let Some(ior) = material.ior.filter(|_| material.is_clear()) else { return straight };
         let before = self.media.ior(self.scene);
         let part_passed = |reflectance: f64| if material.fresnel { (1.0 - reflectance) as f32 } else { 1.0 };
         if !shading.bounds_medium {
             let reflectance = refract(direction, normal, before / ior).map_or(1.0, |refracted| refracted.reflectance);
-            return Boundary { passed: part_passed(reflectance), ..straight };
+            return Boundary { passed: part_passed(reflectance), is_none: before == ior, ..straight };
         }
         let undo = self.media.cross(shading.primitive, shading.from_outside);
         let after = self.media.ior(self.scene);
         self.media.undo(undo);
         match refract(direction, normal, before / after) {
             Some(refracted) => {
-                Boundary { onward: Some(refracted.direction), passed: part_passed(refracted.reflectance) }
+                let passed = part_passed(refracted.reflectance);
+                Boundary { onward: Some(refracted.direction), passed, is_none: before == after }
             }
-            None => Boundary { onward: None, passed: 0.0 },
+            None => Boundary { onward: None, passed: 0.0, is_none: false },
         }
     }
 
     /// Traces a ray from a surface unless it is too deep or too faint.
-    fn follow(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb) {
+    fn follow(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb, way: f64) {
         let settings = &self.scene.settings;
         if depth >= settings.max_depth {
             self.observer.not_traced(kind, weight, NotTraced::TooDeep);
         } else if weight.max_component() < settings.min_weight || weight.is_black() {
             self.observer.not_traced(kind, weight, NotTraced::TooFaint);
         } else {
+            self.way = way;
             self.trace(kind, depth + 1, ray, weight, Known::Nothing);
         }
     }

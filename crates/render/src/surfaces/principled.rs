@@ -3,7 +3,7 @@
 //! Of what goes through a body the base color is taken once, in two parts: its root where light enters, and where it leaves. Thin
 //! things take it at once. What goes through reflects by the index of refraction alone, whatever `specular` says.
 
-use super::{EQUAL, Indices, brushed, is_zero};
+use super::{Indices, brushed, is_one, is_zero};
 use crate::bsdf::{Bsdf, Coat, Dielectric, Ggx, Layers, Principled, Sheen, Sheet, ThroughLayers};
 use crate::frame::Frame;
 use crate::shading::{Shading, Textured, within_one};
@@ -65,7 +65,7 @@ fn through(
     let half = color.map(f32::sqrt);
     let how = if material.thin || indices.behind.is_none() {
         ThroughLayers::Thin(Sheet::new(eta, color, ggx))
-    } else if (eta - 1.0).abs() < EQUAL {
+    } else if is_one(eta) {
         ThroughLayers::Clear(half)
     } else {
         ThroughLayers::Bent(Dielectric::new(eta, half, ggx))

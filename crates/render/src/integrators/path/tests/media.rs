@@ -112,6 +112,60 @@ fn panes_in_fog_change_nothing() {
     }
 }
 
+/// A ball that is not there, or that bends and reflects nothing, changes nothing that is seen through it in fog: as little in
+/// front of the wall as around the eye, by both integrators.
+#[test]
+fn what_is_not_there_leaves_fog_as_it_is() {
+    let glass = |ior: f64| Material::of(MaterialKind::Glass(Glass { ior, ..Glass::default() }));
+    let nowhere = |opacity: Paint, material: Material| Material { opacity, ..material };
+    let bubble = Classic {
+        color: Paint::Color(Rgb::BLACK),
+        transparency: Rgb::WHITE,
+        ior: Some(1.0),
+        fresnel: true,
+        ..Classic::default()
+    };
+    let black = Paint::Color(Rgb::BLACK);
+    let balls = [
+        ("matte, opacity 0", nowhere(black, matte(Rgb::WHITE))),
+        ("glass, opacity 0", nowhere(black, glass(1.5))),
+        ("matte, cut out", nowhere(Paint::Texture(durer_scene::TextureId(0)), matte(Rgb::WHITE))),
+        ("glass, cut out", nowhere(Paint::Texture(durer_scene::TextureId(0)), glass(1.5))),
+        ("glass, ior 1", glass(1.0)),
+        ("classic, ior 1", Material::of(MaterialKind::Classic(bubble))),
+    ];
+    let linear = |start, end| Some(Fog::Linear { color: Rgb::gray(0.125), start, end });
+    let fogs = [linear(10.0, 30.0), linear(0.0, 25.0), exponential(15.0, 0.25)];
+    let path = durer_scene::Integrator::Path { max_depth: 20, clamp: None };
+    for (fog, integrator) in fogs.iter().flat_map(|fog| [path, durer_scene::Integrator::Whitted].map(|i| (*fog, i))) {
+        let seen = |objects: Vec<Object>, material: &Material| {
+            let mut scene = before(vec![glowing(2.0), material.clone()], objects);
+            let nothing = durer_scene::Pattern::Checker { colors: [black; 2], size: 1.0, space: Default::default() };
+            scene.textures = vec![durer_scene::Texture { name: None, pattern: nothing, transform: Default::default() }];
+            (scene.fog, scene.render.integrator) = (fog, integrator);
+            let scene = compile(&scene.check().unwrap());
+            let ray = scene.camera.ray(durer_math::DVec2::new(300.0, 220.0));
+            let (sampler, counts) = (Sampler::new(0, (0, 0), 0), &mut crate::observer::RayCounts::default());
+            match integrator {
+                durer_scene::Integrator::Path { max_depth, clamp } => {
+                    PathTracer { max_depth, clamp }.radiance(&scene, &ray, Known::Nothing, &sampler, counts)
+                }
+                _ => Whitted.radiance(&scene, &ray, Known::Nothing, &sampler, counts),
+            }
+        };
+        for (name, material) in &balls {
+            let without = seen(vec![wall(20.0, 0)], material).g;
+            assert!(without > 0.3 && without < 1.5, "{without}");
+            // Around the eye what has holes is there, and glass.
+            let around = (*name != "glass, cut out").then(|| ball(0.0, 2.0, 1));
+            for ball in around.into_iter().chain([ball(14.0, 3.0, 1)]) {
+                let with = seen(vec![wall(20.0, 0), ball], material).g;
+                assert!((with - without).abs() < 1e-5, "{name} in {fog:?} by {integrator:?}: {with}, not {without}");
+            }
+        }
+    }
+}
+
 /// What another medium hides is not there: it does not glow, neither for the eye nor for what could aim at it.
 #[test]
 fn hidden_boundaries_do_not_glow() {
