@@ -66,6 +66,8 @@ pub struct CompiledScene {
     pub(crate) attenuates: bool,
     /// True if some surface may have holes.
     pub(crate) has_holes: bool,
+    /// True if radiance may change on straight ways: under path tracing, through holes in what bends light.
+    pub(crate) stretches: bool,
 }
 
 /// Bytes that geometry takes, and for how much of what. What instances share is counted once.
@@ -116,7 +118,11 @@ pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
     let camera = scene.camera.as_ref().or(brought.camera.as_ref());
     let camera = Camera::compile(camera, world.bounds(), width, height);
     let attenuates = |looks: &Looks| looks.is_medium && materials[looks.material as usize].attenuation.is_some();
+    let is_path = matches!(scene.render.integrator, Integrator::Path { .. });
+    let is_open_glass =
+        |looks: &Looks| looks.is_medium && looks.has_holes && materials[looks.material as usize].ior.is_some();
     let mut compiled = CompiledScene {
+        stretches: is_path && objects.iter().any(|object| is_open_glass(&object.looks)),
         attenuates: objects.iter().any(|object| attenuates(&object.looks)),
         has_holes: objects.iter().any(|object| object.looks.has_holes),
         media_at_eye: media_at_eye(&objects, &world, &camera),

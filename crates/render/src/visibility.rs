@@ -15,7 +15,9 @@ pub(crate) const SHORT_OF_LIGHT: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;
 pub(crate) const MOST_SURFACES: u32 = 100_000;
 
 /// What is left of light on the way along `ray` over `distance`: nothing behind something opaque; else the product of
-/// what all clear surfaces let pass and of what media take away. `media` are those around the ray's origin.
+/// what all clear surfaces let pass and of what media take away; under path tracing also of the square of how much denser what is
+/// left through holes is than what is around it, since radiance there is so many times as great. `media` are those around the
+/// ray's origin.
 ///
 /// If there is a vantage, the ray must be aimed at its point. It goes straight, also through what would bend it.
 #[inline]
@@ -42,7 +44,7 @@ pub(crate) fn visibility(
     });
     if dark {
         Rgb::BLACK
-    } else if scene.attenuates && (clear || !media.is_empty()) {
+    } else if scene.attenuates && (clear || !media.is_empty()) || scene.stretches && clear && !media.is_empty() {
         left * through_media(scene, media, *ray, reach)
     } else {
         left
@@ -81,7 +83,7 @@ fn passed(scene: &CompiledScene, ray: &Ray, hit: &Hit, surface: &Surface, around
     straight * opacity + (Rgb::WHITE - opacity)
 }
 
-/// What media leave of light: goes from surface to surface, for the innermost medium decides. Light that goes past a surface which
+/// What media leave of light, and how radiance changes between them: goes from surface to surface, for the innermost medium decides. Light that goes past a surface which
 /// is but partly there enters nothing, and what goes through it does: both are followed.
 fn through_media(scene: &CompiledScene, media: &Media, ray: Ray, reach: f64) -> Rgb {
     Way { media: media.clone(), ray, reach, surfaces: MOST_SURFACES, forks: MOST_FORKS }.left(scene)
@@ -126,7 +128,12 @@ impl Way {
                     (Rgb::WHITE - inside) * self.clone().left(scene) + inside * self.entering(&hit, true).left(scene);
                 return left;
             }
+            let before = if scene.stretches { self.media.ior(scene) } else { 1.0 };
             self = self.entering(&hit, side < 0.0);
+            if scene.stretches {
+                let stretch = before / self.media.ior(scene);
+                left = left * (stretch * stretch) as f32;
+            }
         }
         left * self.media.transmittance(scene, self.reach)
     }

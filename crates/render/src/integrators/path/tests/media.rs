@@ -234,6 +234,39 @@ fn half_clear_bodies_in_glass_vanish_in_a_white_sky() {
     }
 }
 
+/// Rough glass with a roughness at which lights are aimed at through it, and through the holes of which half is.
+fn half_open_glass(roughness: f32) -> Material {
+    let glass = Glass { roughness: Paint::Color(Rgb::gray(roughness)), ..Glass::default() };
+    Material { opacity: Paint::Color(Rgb::gray(0.5)), ..Material::of(MaterialKind::Glass(glass)) }
+}
+
+/// Radiance in glass is 1.5² times as great as outside, through its holes, too: those who look for a lamp see half of it through
+/// one, so much brighter; and one half squared from outside through both sides, where nothing is entered.
+#[test]
+fn radiance_changes_through_holes_in_glass() {
+    let mut scene = before(vec![half_open_glass(0.4)], vec![ball(5.0, 1.0, 0)]);
+    scene.background = Background::Color(Rgb::WHITE);
+    let scene = compile(&scene.check().unwrap());
+    let mut inside = Media::default();
+    let _ = inside.cross(0, true);
+    let from = |z: f64| durer_geometry::Ray { origin: DVec3::NEG_Z * z, direction: DVec3::NEG_Z };
+    let through = |media: &Media, z: f64| visibility(&scene, media, &from(z), 20.0, None);
+    assert_eq!(through(&inside, 5.0), Rgb::gray(0.5 * 2.25));
+    assert_eq!(through(&Media::default(), 0.0), Rgb::gray(0.25));
+}
+
+/// Half-open rough glass loses nothing: in a white sky it is not to be seen.
+#[test]
+fn half_open_rough_glass_vanishes_in_a_white_sky() {
+    for roughness in [0.3, 0.7] {
+        let mut scene = before(vec![half_open_glass(roughness)], vec![ball(5.0, 1.0, 0)]);
+        scene.background = Background::Color(Rgb::WHITE);
+        let found = mean_to(1000, &compile(&scene.check().unwrap()), 60_000);
+        eprintln!("half open {roughness}: {found:?}");
+        assert!((found.g - 1.0).abs() < 0.005, "{roughness}: {found:?}");
+    }
+}
+
 /// What shows nothing but ambient light, as unlit things of glTF do, shows its color here, too; in mirrors as well.
 #[test]
 fn unlit_things_show_their_color() {
