@@ -28,7 +28,9 @@ pub(crate) fn of_render(loaded: Fingerprint, rendered: &Scene, crop: Option<Regi
             entry("Max depth", settings.max_depth.to_string()),
             entry("Min weight", settings.min_weight.to_string()),
         ]),
-        Integrator::Normals | Integrator::Depth | Integrator::Uv => entries.extend([
+        // Of the middles of pixels, whatever these say.
+        Integrator::Uv => entries.push(entry("Integrator", settings.integrator.word())),
+        Integrator::Normals | Integrator::Depth => entries.extend([
             entry("Integrator", settings.integrator.word()),
             entry("Antialias", antialias_text(settings.antialias)),
             entry("Filter", filter_text(settings.filter)),

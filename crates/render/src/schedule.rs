@@ -252,6 +252,10 @@ pub(crate) fn with_antialias<W: WithAntialias>(scene: &CompiledScene, work: W) -
             | PixelFilter::BlackmanHarris { .. } => work.shared(Alone::new(antialias), filter),
         }
     }
+    if let Integrator::Uv = scene.settings.integrator {
+        // The mean of coordinates is nowhere near them where they begin anew, as around a ball.
+        return work.alone(&Grid::new(1));
+    }
     let (filter, picture) = (scene.settings.filter, scene.picture_size());
     match scene.settings.antialias {
         durer_scene::Antialias::None => choose(work, filter, Grid::new(1)),

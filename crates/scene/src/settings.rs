@@ -127,7 +127,7 @@ pub enum Integrator {
     Normals,
     /// How far away it is.
     Depth,
-    /// Its texture coordinates, as red and green.
+    /// Its texture coordinates in the middle of each pixel, as red and green; `antialias` and `filter` do not matter.
     Uv,
 }
 

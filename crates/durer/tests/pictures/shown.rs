@@ -45,6 +45,28 @@ fn texture_coordinates_are_red_and_green() {
     near(b, [0.5 + step, 0.5 + step, 0.0], 1e-6);
 }
 
+/// Around the back of a ball u begins anew: no pixel shows a mean of its two ends, whatever anti-aliasing is asked for.
+#[test]
+fn texture_coordinates_are_those_of_the_middles_of_pixels() {
+    let shown = |antialias: &str, side: f64| {
+        picture(scene(&format!(
+            "{{picture: {{width: 9, height: 9}}, render: {{{antialias}, integrator: uv}}, \
+             camera: {{position: [{side}, 0, 0.1], look_at: [0, 0, 0.1], orthographic: {{height: 4}}}}, objects: [sphere]}}"
+        )))
+    };
+    // From one side the seam is seen, from the other not; each time it runs beside the middles.
+    let plain = [-5.0, 5.0].map(|side| shown("antialias: none", side));
+    assert!(plain.iter().any(|image| {
+        let row = |x: u32| image.pixel(x, 4).r;
+        (2..6).any(|x| (row(x) - row(x + 1)).abs() > 0.8)
+    }));
+    for antialias in ["antialias: {adaptive: {}}", "antialias: {grid: {n: 4}}, filter: mitchell"] {
+        for (plain, side) in plain.iter().zip([-5.0, 5.0]) {
+            assert!(shown(antialias, side) == *plain, "{antialias}");
+        }
+    }
+}
+
 /// What is less than half there is looked past.
 #[test]
 fn what_is_hardly_there_is_not_shown() {

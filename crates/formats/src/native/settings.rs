@@ -70,7 +70,7 @@ choice! { Integrator, "integrator";
     }
     Normals "normals": "The normals of what is seen, as colors.", example "integrator: normals", {}
     Depth "depth": "How far away it is.", example "integrator: depth", {}
-    Uv "uv": "Its texture coordinates, as red and green.", example "integrator: uv", {}
+    Uv "uv": "Its texture coordinates in the middle of each pixel, as red and green; `antialias` and `filter` do not matter.", example "integrator: uv", {}
 }
 choice_value!(Integrator, Integrator::Whitted);
 

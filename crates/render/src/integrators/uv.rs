@@ -10,6 +10,7 @@ use durer_geometry::Ray;
 use durer_math::Rgb;
 
 /// Shows u as red and v as green; of those outside of 0 to 1 what lies behind the point. The background is black.
+/// Of each pixel the middle is shown: means would be wrong where coordinates begin anew, of 0.99 and 0.01 in the middle between.
 pub(crate) struct Uv;
 
 impl Integrator for Uv {
