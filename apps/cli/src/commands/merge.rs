@@ -106,7 +106,23 @@ fn read(path: &Path) -> Result<Checkpoint, Failure> {
 }
 
 fn cannot_merge(path: &Path, error: &CheckpointError) -> Failure {
-    Failure::file(format!("cannot merge {}: {error}", path.display()))
+    let path = path.display();
+    Failure::file(match error {
+        CheckpointError::AnotherKind => format!(
+            "cannot merge {path}: it is no film; films are what `durer render SCENE -o NAME.film` writes, and checkpoints of renders"
+        ),
+        error => format!("cannot merge {path}: {error}"),
+    })
+}
+
+/// The film of the samples that one which may not be finished has.
+fn of_what_it_has(path: &Path, film: Film) -> Result<Film, Failure> {
+    film.of_what_it_has().ok_or_else(|| {
+        let path = path.display();
+        Failure::file(format!(
+            "cannot merge {path}: it is not finished, and what it has is nothing, or in too many pieces; `durer resume {path}` finishes it"
+        ))
+    })
 }
 
 /// One film of all; no more than one of them is held beside it.

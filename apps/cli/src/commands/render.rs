@@ -19,6 +19,7 @@ use std::path::{Path, PathBuf};
 
 pub(crate) use job::{Job, Purpose, differences};
 pub(crate) use manner::Manner;
+pub(crate) use saver::remove_checkpoint;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -91,7 +92,8 @@ fn origin() -> Option<Origin> {
 }
 
 impl Arguments {
-    fn output_path(&self) -> PathBuf {
+    /// The file that it writes.
+    pub(crate) fn output_path(&self) -> PathBuf {
         match &self.output {
             Some(path) => path.clone(),
             None => PathBuf::from(self.scene.name()).with_extension("png"),
@@ -111,6 +113,11 @@ impl Arguments {
         self.crop = Some(film.region());
         self.saving.checkpoint = None;
         self.saving.no_checkpoint = true;
+    }
+
+    /// Where its checkpoints go.
+    pub(crate) fn checkpoint_path(&self) -> PathBuf {
+        self.saving.path(&self.output_path())
     }
 
     /// True if it writes a film file.

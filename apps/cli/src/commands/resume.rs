@@ -3,8 +3,9 @@
 use super::render::{self, Job, Manner, Purpose};
 use crate::args::{Cli, Command};
 use crate::exit::{Exit, Failure};
+use crate::target;
 use clap::{Args, Parser};
-use durer::{Origin, read_checkpoint};
+use durer::{CheckpointOutline, Origin, read_checkpoint, read_checkpoint_outline};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -38,9 +39,34 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     if checkpoint.film.is_complete() && render.writes_film() {
         return Err(cannot("it is a finished film, of which `durer merge` makes a picture".to_owned()));
     }
-    render.resumed_in(Path::new(&origin.folder), path);
+    let folder = Path::new(&origin.folder);
+    if target::same_place(&folder.join(render.output_path()), path) {
+        return Err(cannot("it lies where what it becomes is written; give it another name first".to_owned()));
+    }
+    let beside = folder.join(render.checkpoint_path());
+    let begun =
+        CheckpointOutline { origin: origin.clone(), scene: checkpoint.scene.clone(), film: checkpoint.film.outline() };
+    render.resumed_in(folder, path);
     let purpose = Purpose::Render;
-    Job { arguments: &render, manner: &arguments.manner, origin: Some(origin), purpose }.run(Some(checkpoint))
+    let job = Job { arguments: &render, manner: &arguments.manner, origin: Some(origin), purpose };
+    let exit = job.run(Some(checkpoint))?;
+    if !target::same_place(&beside, path) {
+        remove_outlived(&beside, &begun);
+    }
+    Ok(exit)
+}
+
+/// Removes the checkpoint that the same render wrote besides: what was gone on with may be the film of an interrupted render,
+/// or a copy.
+fn remove_outlived(path: &Path, begun: &CheckpointOutline) {
+    let is_of_the_same = |other: &CheckpointOutline| {
+        other.origin == begun.origin
+            && other.scene == begun.scene
+            && (other.film.region, &other.film.parts) == (begun.film.region, &begun.film.parts)
+    };
+    if read_checkpoint_outline(path).is_ok_and(|other| is_of_the_same(&other)) {
+        super::render::remove_checkpoint(path);
+    }
 }
 
 /// What a render was begun with.

@@ -1,7 +1,7 @@
 //! Films of samples: parts of pictures, merged; renders that end by noise or time; checkpoints of them.
 
 use crate::workshop::Workshop;
-use durer::{Checkpoint, Origin, encode_checkpoint, read_checkpoint};
+use durer::{Checkpoint, Origin, SampleRange, SceneHash, encode_checkpoint, read_checkpoint};
 
 const BALL: &str = "picture: {width: 60, height: 40}\nrender: {integrator: path, samples: 8}\nobjects:\n\
     - plane: {material: {matte: {color: gray}}}\n- sphere: {center: [0, 1, 0], material: {matte: {color: tomato}}}\n";
@@ -26,7 +26,8 @@ fn parts_are_merged_to_the_bytes_of_one_run() {
     assert!(told.stderr.contains("samples 3..8 of the pixels 0,0,25,40 are missing"), "{}", told.stderr);
     workshop.fine("merge b.film some.film -o again.png");
     assert_eq!(workshop.bytes("again.png"), workshop.bytes("whole.png"));
-    workshop.fine("merge whole.film -o from-film.png");
+    let told = workshop.fine("merge whole.film -o from-film.png").stderr;
+    assert!(told.contains("8 samples a pixel") && !told.contains("Mrays/s"), "nothing is traced: {told}");
     assert_eq!(workshop.bytes("from-film.png"), workshop.bytes("whole.png"));
     workshop.fine("render ball.yaml --layers all -o whole.exr");
     workshop.fine("render ball.yaml --layers all --sample-range 0..5 -o d.film");
@@ -49,7 +50,10 @@ fn films_that_do_not_fit_are_told() {
     workshop.fine("render ball.yaml --seed 3 --exposure 1 --sample-range 5..6 -o seed.film");
     let differing = "it differs from a.film in the setting `exposure`, the setting `seed`";
     workshop.fails("merge a.film seed.film -o c.png", 4, differing);
-    workshop.fails("merge a.film ball.yaml -o c.png", 4, "this is no checkpoint of durer");
+    let what_is_one = "it is no film; films are what `durer render SCENE -o NAME.film` writes";
+    workshop.fails("merge a.film ball.yaml -o c.png", 4, what_is_one);
+    workshop.fine("render ball.yaml -o picture.png");
+    workshop.fails("merge picture.png a.film -o c.png", 4, what_is_one);
     workshop.fails("merge a.film -o c.gif", 2, "gif");
     workshop.fails("resume a.film", 4, "it is a finished film");
     workshop.fails("render ball.yaml --sample-range 3..3", 2, "must be greater");
@@ -155,6 +159,89 @@ fn time_does_not_begin_again() {
 #[test]
 fn parts_with_noise_are_merged_to_the_bytes_of_one_run() {
     let workshop = workshop();
+/// Stops after the first pass.
+#[derive(Default)]
+struct Soon(std::sync::atomic::AtomicBool);
+
+impl durer::Progress for Soon {
+    fn advanced(&self, _film: &durer::Film) {
+        self.0.store(true, std::sync::atomic::Ordering::Relaxed);
+    }
+
+    fn stop(&self) -> bool {
+        self.0.load(std::sync::atomic::Ordering::Relaxed)
+    }
+}
+
+/// The file of a film of the ball that these words began and that was stopped soon.
+fn stopped(workshop: &Workshop, words: &[&str], samples: SampleRange) -> Vec<u8> {
+    let loaded = durer::load_str(BALL, "ball.yaml", &durer::NoAssets, &durer::Limits::default()).unwrap();
+    let hash = SceneHash::of(loaded.scene.scene(), &loaded.sources);
+    let options = durer::RenderOptions { threads: None, region: None, samples: Some(samples), direct: false };
+    let film = durer::render(&durer::compile(&loaded.scene), &options, &Soon::default()).unwrap();
+    assert!(!film.is_complete());
+    let folder = workshop.path("").canonicalize().unwrap().into_os_string().into_string().unwrap();
+    let words = words.iter().map(|&word| word.to_owned()).collect();
+    encode_checkpoint(&Origin { folder, words }, &hash, &film, 1.0)
+}
+
+/// Films that are not finished are told, and merged for what they have.
+#[test]
+fn unfinished_films_are_merged_for_what_they_have() {
+    let workshop = workshop();
+    for (name, start) in [("a.film", 0), ("b.film", 8)] {
+        let bytes = stopped(&workshop, &["ball.yaml", "-o", name], SampleRange { start, end: start + 8 });
+        std::fs::write(workshop.path(name), bytes).unwrap();
+    }
+    workshop.fine("render ball.yaml --sample-range 20..22 -o c.film");
+    let told = workshop.fine("merge a.film b.film c.film -o all.film").stderr;
+    for words in
+        ["a.film is not finished: ", "b.film is not finished: ", "`durer resume b.film` goes on", "are missing"]
+    {
+        assert!(told.contains(words), "{told}");
+    }
+    workshop.fine("merge b.film a.film c.film -o all.png --quiet");
+    let sums = |name: &str| read_checkpoint(&workshop.path(name)).unwrap().film.sums().unwrap().clone();
+    let [all, a, b, c] = ["all.film", "a.film", "b.film", "c.film"].map(sums);
+    assert!(a.samples() > 0 && a.samples() < 8 * 2400 && c.samples() == 2 * 2400);
+    for pixel in 0..all.taken.len() {
+        assert_eq!(all.taken[pixel], a.taken[pixel] + b.taken[pixel] + c.taken[pixel]);
+        let added: [i128; 3] = std::array::from_fn(|i| [&a, &b, &c].map(|sums| sums.colors[pixel][i]).iter().sum());
+        assert_eq!(all.colors[pixel], added);
+    }
+    // What it has it cannot be given again.
+    workshop.fails("resume a.film", 4, "give it another name first");
+    std::fs::rename(workshop.path("a.film"), workshop.path("begun.film")).unwrap();
+    workshop.fine("resume begun.film --quiet");
+    workshop.fails("merge all.film a.film -o b.png", 4, "both have samples 0..");
+}
+
+/// Whichever of the two files of an interrupted film is gone on with, both go when the film is written; not those of others.
+#[test]
+fn a_film_gone_on_with_leaves_no_checkpoint() {
+    let workshop = workshop();
+    workshop.fine("render ball.yaml -o whole.film");
+    let render = |checkpoint: &[&str]| {
+        let words = [&["ball.yaml", "-o", "a.film"], checkpoint].concat();
+        stopped(&workshop, &words, SampleRange { start: 0, end: 8 })
+    };
+    for (checkpoint, words) in [("a.film.durer-checkpoint", &[][..]), ("c", &["--checkpoint", "c"])] {
+        for name in ["a.partial.film", checkpoint] {
+            std::fs::write(workshop.path(name), render(words)).unwrap();
+        }
+        std::fs::write(workshop.path("other"), render(&["--checkpoint", "other"])).unwrap();
+        workshop.fine("resume a.partial.film");
+        assert_eq!(workshop.names(), ["a.film", "bad.yaml", "ball.yaml", "other", "room.yaml", "whole.film"]);
+        let sums = |film: &str| read_checkpoint(&workshop.path(film)).unwrap().film;
+        assert!(sums("a.film") == sums("whole.film"));
+    }
+    // One that lies there and is of another render stays.
+    std::fs::write(workshop.path("a.partial.film"), render(&[])).unwrap();
+    std::fs::write(workshop.path("a.film.durer-checkpoint"), render(&["--checkpoint", "other"])).unwrap();
+    workshop.fine("resume a.partial.film");
+    assert!(workshop.path("a.film.durer-checkpoint").exists() && !workshop.path("a.partial.film").exists());
+}
+
     workshop.put("noise.yaml", &BALL.replace("samples: 8", "samples: 150, noise: 0.03"));
     workshop.fine("render noise.yaml -o whole.png --alpha");
     workshop.fine("render noise.yaml --crop 0,0,21,40 -o a.film");

@@ -168,7 +168,7 @@ impl Job<'_> {
         let saving = &self.arguments.saving;
         match (&self.origin, &saving.checkpoint) {
             (Some(origin), _) => {
-                let path = saving.path(&self.arguments.output_path());
+                let path = self.arguments.checkpoint_path();
                 Ok(Some(Saver::new(path, origin.clone(), (scene, sources), saving.times())))
             }
             (None, Some(_)) => Err(Failure::usage("--checkpoint: checkpoints need names of files that are UTF-8")),

@@ -141,9 +141,10 @@ impl Report {
         u64::from(self.region.width) * u64::from(self.region.height)
     }
 
-    fn mrays_per_second(&self) -> f64 {
+    /// `None` if no ray was traced, but the picture of a film made.
+    fn mrays_per_second(&self) -> Option<f64> {
         let rays = self.rays.total().saturating_sub(self.rays_before);
-        if self.seconds.render > 0.0 { rays as f64 / self.seconds.render / 1e6 } else { 0.0 }
+        (rays > 0 && self.seconds.render > 0.0).then(|| rays as f64 / self.seconds.render / 1e6)
     }
 
     /// The line at the end.
@@ -156,9 +157,14 @@ impl Report {
             count => format!(" ({} more cut off as too deep)", thousands(count)),
         };
         let samples = self.samples.map_or(String::new(), |samples| samples.text());
+        let work = match self.mrays_per_second() {
+            Some(rate) => {
+                format!(", {rate:.2} Mrays/s; load {load:.3} s, build {build:.3} s, render {render:.3} s")
+            }
+            None => String::new(),
+        };
         output::note(&format!(
-            "{}: {width} × {height} pixels, {}{samples}; {} eye ({} a pixel), {} reflected, {} transmitted, {} shadow rays{cut_off}, {:.2} Mrays/s; \
-             load {load:.3} s, build {build:.3} s, render {render:.3} s",
+            "{}: {width} × {height} pixels, {}{samples}; {} eye ({} a pixel), {} reflected, {} transmitted, {} shadow rays{cut_off}{work}",
             self.written_path().display(),
             bytes(self.bytes as u64),
             thousands(eye),
@@ -166,7 +172,6 @@ impl Report {
             thousands(reflected),
             thousands(transmitted),
             thousands(shadow),
-            self.mrays_per_second(),
         ));
     }
 
@@ -241,7 +246,7 @@ impl Report {
             },
             "eye_rays_per_pixel": self.eye_rays_per_pixel(),
             "samples": self.samples.map(|Samples { least, most, mean, wanted, noise }| {
-                let a_second = mean * self.pixels() as f64 / render.max(1e-9);
+                let a_second = self.mrays_per_second().map(|_| mean * self.pixels() as f64 / render.max(1e-9));
                 json!({ "least": least, "most": most, "mean": mean, "wanted": wanted, "noise": noise, "per_second": a_second })
             }),
             "mrays_per_second": self.mrays_per_second(),

@@ -173,9 +173,16 @@ impl<'a> Saver<'a> {
 
     /// Removes the checkpoint, for the picture is written.
     pub(super) fn remove(&self) {
-        if lock(&self.turn).is_ours && std::fs::remove_file(&self.path).is_err() && self.path.exists() {
-            output::warning(&format!("{} is of no more use, but cannot be removed", self.path.display()));
+        if lock(&self.turn).is_ours {
+            remove_checkpoint(&self.path);
         }
+    }
+}
+
+/// Removes a checkpoint whose picture is written.
+pub(crate) fn remove_checkpoint(path: &Path) {
+    if std::fs::remove_file(path).is_err() && path.exists() {
+        output::warning(&format!("{} is of no more use, but cannot be removed", path.display()));
     }
 }
 
