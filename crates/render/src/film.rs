@@ -3,6 +3,7 @@
 mod merge;
 mod region;
 mod sums;
+mod taken;
 
 use crate::observer::RayCounts;
 use durer_imaging::Image;

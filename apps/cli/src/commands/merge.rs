@@ -21,11 +21,12 @@ Examples:
   durer render room.yaml --crop 320,0,320,480 -o right.film
   durer merge left.film right.film -o whole.film
 
-The films must be of one scene with the same settings, and no two may have the same
-samples of a pixel. What comes of it is, byte for byte, what one render with all their
-samples makes; what is missing is told, and black in a picture. For a picture the scene
-must be where it was: it says how films are developed. Of one film alone that is not
-finished, or of one checkpoint, a picture can be made, too: of what there is.";
+The films must be of one scene with the same settings (but for `samples`, `noise` and
+`time`), and no two may have the same samples of a pixel. What comes of it is, byte for
+byte, what one render with all their samples makes; what is missing is told, and black in
+a picture. For a picture the scene must be where it was: it says how films are developed.
+Films that are not finished, and checkpoints, count for what they have; `durer resume FILE`
+finishes them.";
 
 /// Put films of parts of a picture together
 #[derive(Args, Debug)]
@@ -53,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
             "-o: {name} is one of the films, and is not written over; name another file"
         )));
     }
-    let outlines = paths.iter().map(|path| outline(path)).collect::<Result<Vec<_>, _>>()?;
+    let mut outlines = paths.iter().map(|path| outline(path)).collect::<Result<Vec<_>, _>>()?;
     let Some(CheckpointOutline { origin, scene, .. }) = outlines.first().cloned() else {
         return Err(Failure::usage("there is no film to merge"));
     };
@@ -74,7 +75,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
             }
             film.as_it_is()
         }
-        _ => merged(paths, outlines)?,
+        _ => {
+            for (path, outline) in paths.iter().zip(&mut outlines) {
+                if outline.film.is_complete || outline.film.parts.is_empty() {
+                    continue;
+                }
+                let Checkpoint { film, .. } = read(path)?;
+                if !is_quiet {
+                    tell_unfinished(path, &film);
+                }
+                outline.film = of_what_it_has(path, film)?.outline();
+            }
+            merged(paths, outlines)?
+        }
     };
     if !is_quiet {
         tell_gaps(&film, scene.size());
@@ -136,7 +149,7 @@ fn merged(paths: &[PathBuf], outlines: Vec<CheckpointOutline>) -> Result<Film, F
         if scene != before {
             return Err(wrong(MergeError::Another(index)));
         }
-        merging.add(index, &film).map_err(wrong)?;
+        merging.add(index, &of_what_it_has(path, film)?).map_err(wrong)?;
     }
     Ok(merging.finish())
 }
@@ -181,9 +194,7 @@ fn describe(error: MergeError, paths: &[PathBuf]) -> String {
         | MergeError::Another(index) => {
             let path = path(index);
             let help = match error {
-                MergeError::Unfinished(_) => format!(
-                    "; `durer resume {path}` goes on with it, and `durer merge {path} -o picture.png` shows what there is"
-                ),
+                MergeError::Unfinished(_) => format!("; `durer resume {path}` finishes it"),
                 _ => String::new(),
             };
             format!("cannot merge {path}: {error}{help}")

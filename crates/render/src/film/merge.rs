@@ -132,6 +132,11 @@ impl Merging {
         outline.parts.clear();
         self.account.add(&film.account);
         for (pixel, (x, y)) in film.region.pixel_places().enumerate() {
+            // Pixels of which there is nothing may lie outside of all parts.
+            let here = Region { x, y, width: 1, height: 1 };
+            if self.region.intersection(here).is_none() {
+                continue;
+            }
             self.sums.add(self.region.index_of(x, y), &sums.of(pixel));
         }
         Ok(())
