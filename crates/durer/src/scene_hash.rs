@@ -30,6 +30,14 @@ pub enum SceneItem<'a> {
     File(&'a str),
 }
 
+impl SceneItem<'_> {
+    /// False for what only says how many samples are taken, and when it is enough: a sample with a number is the same
+    /// whatever that is.
+    pub fn changes_samples(self) -> bool {
+        !matches!(self, SceneItem::Setting("samples" | "noise" | "time"))
+    }
+}
+
 /// What names of settings begin with.
 const SETTING: char = '\0';
 
@@ -157,6 +165,10 @@ mod tests {
         assert_eq!(plain.differences(&other), settings);
         assert_eq!((other.integrator(), other.size()), ("path", (64, 32)));
         assert_ne!(plain.fingerprint(), other.fingerprint());
+        let more = of("picture: {width: 64, height: 48}\nrender: {samples: 99, noise: 0.1, time: 9, seed: 3}");
+        let counts = plain.differences(&more);
+        assert_eq!(counts, ["noise", "samples", "seed", "time"].map(SceneItem::Setting));
+        assert_eq!(counts.iter().filter(|item| item.changes_samples()).count(), 1);
         // One whose name looks like a setting's would have to begin with a byte that no name can have.
         assert_eq!(item_of("seed"), SceneItem::File("seed"));
     }

@@ -1,6 +1,6 @@
 //! `durer merge`: films of parts of a picture become one, or the picture.
 
-use super::render::{Job, Manner, Purpose, differences};
+use super::render::{Job, Manner, Purpose, differences_of_samples};
 use super::resume::begun_with;
 use crate::exit::{Exit, Failure};
 use crate::{numbers, output, target};
@@ -59,7 +59,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         return Err(Failure::usage("there is no film to merge"));
     };
     for (path, other) in paths.iter().zip(&outlines) {
-        let differing = differences(&scene, &other.scene);
+        let differing = differences_of_samples(&scene, &other.scene);
         if !differing.is_empty() {
             let (path, first) = (path.display(), paths[0].display());
             return Err(Failure::file(format!("cannot merge {path}: it differs from {first} in {differing}")));

@@ -17,7 +17,7 @@ use layers::LayerOptions;
 use saving::Saving;
 use std::path::{Path, PathBuf};
 
-pub(crate) use job::{Job, Purpose, differences};
+pub(crate) use job::{Job, Purpose, differences_of_samples};
 pub(crate) use manner::Manner;
 pub(crate) use saver::remove_checkpoint;
 

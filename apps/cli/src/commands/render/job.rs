@@ -402,7 +402,10 @@ fn fitting(checkpoint: Checkpoint, saver: &Saver<'_>, region: Region, purpose: P
         Purpose::Render => format!("cannot go on with {}", saver.path().display()),
         Purpose::Merge(film) => format!("cannot make a picture of {}", film.display()),
     };
-    let changed = differences(&checkpoint.scene, saver.hash());
+    let changed = match purpose {
+        Purpose::Render => differences(&checkpoint.scene, saver.hash()),
+        Purpose::Merge(_) => differences_of_samples(&checkpoint.scene, saver.hash()),
+    };
     if !changed.is_empty() {
         return Err(Failure::Message(Exit::Scene, format!("{cannot}: since it was made, {changed} changed")));
     }
@@ -429,8 +432,17 @@ fn saving_from_the_start(arguments: &Arguments) -> bool {
 }
 
 /// What is not the same in two scenes, in words.
-pub(crate) fn differences(before: &SceneHash, now: &SceneHash) -> String {
-    let items = before.differences(now).into_iter().map(|item| match item {
+fn differences(before: &SceneHash, now: &SceneHash) -> String {
+    in_words(before.differences(now).into_iter())
+}
+
+/// The same, without what changes none of the samples, but only how many there are.
+pub(crate) fn differences_of_samples(before: &SceneHash, now: &SceneHash) -> String {
+    in_words(before.differences(now).into_iter().filter(|item| item.changes_samples()))
+}
+
+fn in_words<'a>(items: impl Iterator<Item = SceneItem<'a>>) -> String {
+    let items = items.map(|item| match item {
         SceneItem::Scene => "the scene".to_owned(),
         SceneItem::Setting(name) => format!("the setting `{name}`"),
         SceneItem::File(name) => format!("`{name}`"),
