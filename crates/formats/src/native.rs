@@ -76,6 +76,7 @@ fn load_tree(text: &str, assets: &dyn Assets, limits: &Limits) -> (Option<Checke
                 let span = root.get("objects").map_or(Span::default(), |(key, _)| key.span);
                 complaints.push(Complaint::warning(span, "nothing to see: the scene has no objects"));
             }
+            settings::warn_of_unused(&root, &scene.scene().render.integrator, &mut complaints);
             // What is not there because it could not be read is not missed.
             if !complaints.iter().any(Complaint::is_error) {
                 for remark in scene.remarks() {

@@ -56,6 +56,48 @@ record!(RenderSettings {
 });
 record_value!(RenderSettings, "render", RenderSettings::default());
 
+/// What a file says for another integrator than the one that it names. (One that names none may be meant for several, which the
+/// command line chooses from.)
+pub(super) fn warn_of_unused(root: &Node, integrator: &Integrator, complaints: &mut Vec<Complaint>) {
+    let Some((_, render)) = root.get("render") else { return };
+    if render.get("integrator").is_none() {
+        return;
+    }
+    let word = integrator.word();
+    let unused: &[(&str, &str)] = match integrator {
+        Integrator::Path { .. } => &[
+            ("max_depth", "that of `path` is its own: `integrator: {path: {max_depth: 16}}`"),
+            ("min_weight", "`path` ends paths by chance, and loses no light"),
+            ("light_samples", "`path` sends one shadow ray from each surface: more `samples` make shadows smoother"),
+            ("antialias", "`path` spreads its `samples` over each pixel"),
+        ],
+        Integrator::AmbientOcclusion { .. } => &[
+            ("max_depth", ""),
+            ("min_weight", ""),
+            ("light_samples", ""),
+            ("antialias", "`samples` are spread over each pixel"),
+        ],
+        Integrator::Whitted => {
+            let help = "for light at random say `integrator: path`";
+            &[("samples", help), ("noise", help), ("time", help)]
+        }
+        Integrator::Normals | Integrator::Depth | Integrator::Uv => &[
+            ("max_depth", ""),
+            ("min_weight", ""),
+            ("light_samples", ""),
+            ("samples", "see `antialias`"),
+            ("noise", ""),
+            ("time", ""),
+        ],
+    };
+    for (field, help) in unused {
+        if let Some((key, _)) = render.get(field) {
+            let complaint = Complaint::warning(key.span, format!("`{field}` means nothing to `{word}`"));
+            complaints.push(if help.is_empty() { complaint } else { complaint.help(*help) });
+        }
+    }
+}
+
 choice! { Integrator, "integrator";
     Whitted "whitted": "Classic ray tracing: mirrors, glass and shadows, without noise.", example "integrator: whitted", {}
     Path "path": "All the light that there is, by path tracing.", example "integrator: {path: {max_depth: 32}}",

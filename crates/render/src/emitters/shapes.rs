@@ -19,6 +19,8 @@ const MOST: usize = 1 << 23;
 pub(crate) struct Shapes {
     /// In ascending order.
     elements: Vec<Element>,
+    /// How many primitives they belong to.
+    primitives: usize,
     /// What can be known of each before it is aimed at; of none if they are more than [`MOST_READY`].
     ready: Vec<Option<Ready>>,
 }
@@ -65,6 +67,7 @@ impl Shapes {
                 });
             }
         }
+        let primitives = elements.chunk_by(|a, b| a.primitive == b.primitive).count();
         let is_uneven = |element: &&Element| even_light(scene, element).is_none();
         let looks = textured::looks(elements.par_iter().filter(is_uneven).count());
         let item = |(id, element): (usize, &Element)| item(scene, means, looks, element, id as u32);
@@ -73,12 +76,17 @@ impl Shapes {
             true => elements.iter().map(|&element| Ready::of(scene, element)).collect(),
             false => Vec::new(),
         };
-        (Shapes { elements, ready }, items)
+        (Shapes { elements, primitives, ready }, items)
     }
 
     /// How many there are.
     pub(crate) fn len(&self) -> usize {
         self.elements.len()
+    }
+
+    /// How many objects they are parts of; a mesh is one.
+    pub(crate) fn objects(&self) -> usize {
+        self.primitives
     }
 
     /// The index of what was hit, if it is aimed at.

@@ -94,7 +94,10 @@ const BRIGHTEST: f64 = (1_u64 << 34) as f64;
 
 /// A component in steps. What is more than [`BRIGHTEST`] counts as much.
 fn fixed(component: f64) -> i128 {
-    (component.clamp(-BRIGHTEST, BRIGHTEST) * COLOR) as i128
+    let component = component.clamp(-BRIGHTEST, BRIGHTEST);
+    // `(component * COLOR) as i128`, in two steps that processors have instructions for.
+    let whole = component as i64;
+    (i128::from(whole) << COLOR_BITS) + i128::from(((component - whole as f64) * COLOR) as i64)
 }
 
 /// The square of a luminance in steps; the greatest number there is if that is too much for it.
@@ -103,11 +106,14 @@ fn square(color: Rgb) -> i128 {
         return i128::MAX;
     }
     let luminance = f64::from(color.luminance());
-    (luminance * luminance * SQUARE) as i128
+    let steps = luminance * luminance * SQUARE;
+    // Most are so small that there is an instruction for it.
+    if steps < i64::MAX as f64 { (steps as i64).into() } else { steps as i128 }
 }
 
 /// The steps of a color in 1. Numbers of single precision from 2⁻³⁶ to 2³⁴ are exact.
-const COLOR: f64 = (1_u64 << 60) as f64;
+const COLOR: f64 = (1_u64 << COLOR_BITS) as f64;
+const COLOR_BITS: u32 = 60;
 /// Those of the square of a luminance.
 const SQUARE: f64 = (1_u64 << 50) as f64;
 
@@ -123,8 +129,10 @@ impl PixelSums {
         }
         let sign = if is_negative { -1.0 } else { 1.0 };
         for (sums, color) in [(&mut self.color, color), (&mut self.direct, direct)] {
-            for (sum, component) in sums.iter_mut().zip(color.to_array()) {
-                *sum += fixed(sign * f64::from(component));
+            if !color.is_black() {
+                for (sum, component) in sums.iter_mut().zip(color.to_array()) {
+                    *sum += fixed(sign * f64::from(component));
+                }
             }
         }
         self.square = self.square.saturating_add(square(color));
@@ -301,6 +309,16 @@ mod tests {
     fn colors() -> Vec<(Rgb, bool)> {
         let number = |n: u32| (n.wrapping_mul(2_654_435_761) >> 8) as f32 / 1e4;
         (0..50).map(|n| (Rgb::new(number(n), number(n + 99) * 1e-6, number(n + 7) * 1e2), n % 11 == 3)).collect()
+    }
+
+    #[test]
+    fn steps_are_cut_toward_zero() {
+        let numbers = colors().into_iter().flat_map(|(color, _)| color.to_array()).map(f64::from);
+        for number in numbers.chain([0.0, 1.5, 2.0_f64.powi(-61), 2.0_f64.powi(33) + 0.25, 1e300, f64::MIN_POSITIVE]) {
+            for number in [number, -number] {
+                assert_eq!(fixed(number), (number.clamp(-BRIGHTEST, BRIGHTEST) * COLOR) as i128, "{number}");
+            }
+        }
     }
 
     #[test]

@@ -8,6 +8,9 @@ use crate::{
 };
 use durer_imaging::{Bitmap, Texels};
 
+/// What renderers take brighter pixels for.
+const BRIGHTEST: f32 = 1e6;
+
 pub(super) fn remark(c: &mut Checker<'_>) {
     background(c);
     for (id, one) in (0..).zip(&c.scene.materials) {
@@ -27,6 +30,10 @@ fn background(c: &mut Checker<'_>) {
             c.field(at, |c| c.problem_with_help("this environment is black, and gives no light", "is that meant?"));
         } else if has_negative(&image.bitmap) {
             c.field("image", |c| c.problem("this image has negative numbers, which are taken for 0"));
+        } else if has_above(&image.bitmap, BRIGHTEST) {
+            let help = "divide the image by some number, and give that as `strength`";
+            let message = "this image has numbers above a million, which are taken for a million";
+            c.field("image", |c| c.problem_with_help(message, help));
         }
     });
 }
@@ -36,6 +43,13 @@ fn is_black(bitmap: &Bitmap) -> bool {
         Texels::U8(texels) => texels.iter().flatten().all(|number| *number == 0),
         Texels::U16(texels) => texels.iter().flatten().all(|number| *number == 0),
         Texels::F32(texels) => texels.iter().flatten().all(|number| *number <= 0.0),
+    }
+}
+
+fn has_above(bitmap: &Bitmap, most: f32) -> bool {
+    match &bitmap.texels {
+        Texels::U8(_) | Texels::U16(_) => false,
+        Texels::F32(texels) => texels.iter().flatten().any(|number| *number > most),
     }
 }
 

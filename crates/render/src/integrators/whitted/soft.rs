@@ -1,7 +1,7 @@
 //! Light from what has an area: glowing shapes, and lamps with a radius. Their shadows are soft.
 //!
-//! `light_samples` shadow rays go to each, spread evenly over it. With more than [`MANY`] glowing elements (a mesh has as many
-//! as triangles) the rays that so many would get are spent on those that matter for the point that is lit.
+//! `light_samples` shadow rays go to each, spread evenly over it. Those for a mesh are divided among its triangles by how much
+//! they matter for the point that is lit, and with more than [`MANY`] glowing objects so are the rays that so many would get.
 
 use super::Path;
 use crate::emitters::{LightSample, Receiver};
@@ -13,7 +13,7 @@ use durer_geometry::Ray;
 use durer_math::Rgb;
 use std::f64::consts::PI;
 
-/// With more elements than this, rays are divided among them.
+/// With more objects than this, rays are divided among them.
 const MANY: usize = 16;
 
 /// What arrived by some rays: on a matte surface, and in the highlight.
@@ -52,7 +52,7 @@ impl<O: Observer> Path<'_, O> {
         let (scene, per_light) = (self.scene, self.scene.settings.light_samples);
         let (shapes, point) = (scene.emitters.shapes(), shading.origin_back());
         let sources = [Source::Light(None); 2];
-        if shapes.len() <= MANY {
+        if shapes.len() == shapes.objects() && shapes.objects() <= MANY {
             for index in 0..shapes.len() {
                 let (mut arrived, place) = (Arrived::default(), self.next_place());
                 for number in 0..per_light {
@@ -65,7 +65,7 @@ impl<O: Observer> Path<'_, O> {
             return;
         }
         let (mut arrived, place) = (Arrived::default(), self.next_place());
-        let count = per_light.saturating_mul(MANY as u32);
+        let count = per_light.saturating_mul(shapes.objects().min(MANY) as u32);
         let receiver = Receiver { point, normal: shading.normal(), passes: false };
         for number in 0..count {
             let sampler = self.sampler.split(number, count);
