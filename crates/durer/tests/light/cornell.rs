@@ -17,21 +17,24 @@ fn one(seed: u32) -> Image {
     render(&format!("{head}{settings}{rest}"))
 }
 
-/// Means over independent renders, by how far they are from the reference in standard errors: Student's t. Light that a few
-/// paths bring, and the border of the box, make single pixels anything but normal, so it is taken of blocks of 4 × 4 pixels.
-/// The mean of its square is ν/(ν - 2), and no block may be farther off than chance makes one in thousands of such pictures.
-#[test]
-fn every_block_agrees_with_the_reference() {
+fn reference() -> Image {
     let reference = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/light/cornell-64.pfm");
     let reference = durer::read_picture(&reference, &DecodeLimits::default()).expect("the reference is there");
-    let reference = reference.to_image(Transfer::Linear);
-    let renders: Vec<Image> = (1..=RENDERS).map(one).collect();
+    reference.to_image(Transfer::Linear)
+}
+
+/// Means over independent renders, by how far they are from the reference in standard errors: Student's t, of blocks of 4 × 4
+/// pixels. The mean of its square is ν/(ν - 2), and no block may be farther off than chance makes one in thousands of such
+/// pictures.
+#[test]
+fn every_block_agrees_with_the_reference() {
+    let (reference, renders) = (reference(), renders());
     let brightness = |image: &Image| image.pixels.iter().map(|pixel| f64::from(pixel.luminance())).sum::<f64>();
     let ours = renders.iter().map(brightness).sum::<f64>() / f64::from(RENDERS);
     let ratio = ours / brightness(&reference);
     assert!((ratio - 1.0).abs() < 0.002, "the picture is {ratio} times as bright");
 
-    let of_blocks = all_t(&renders, &reference);
+    let of_blocks = all_t(&renders, &reference, 4);
     let worst = of_blocks.iter().fold(0.0, |worst: f64, t| worst.max(t.abs()));
     assert!(worst < 8.5, "t = {worst}");
     let squares = of_blocks.iter().map(|t| t * t).sum::<f64>() / of_blocks.len() as f64;
@@ -40,12 +43,26 @@ fn every_block_agrees_with_the_reference() {
     assert!((squares / expected - 1.0).abs() < 0.2, "mean of t²: {squares}, not {expected}");
 }
 
-/// Edge of a block.
-const BLOCK: usize = 4;
+/// The same of single pixels. Light that a few paths bring, and the border of the box, make them less than normal, so that the
+/// worst ones tell nothing; but no more are far off than chance has it, on either side, and half are on each.
+#[test]
+fn pixels_agree_with_the_reference() {
+    let t = all_t(&renders(), &reference(), 1);
+    let share = |is_meant: &dyn Fn(f64) -> bool| t.iter().filter(|t| is_meant(**t)).count() as f64 / t.len() as f64;
+    // The quantiles of Student's t for 15 degrees of freedom that 1 and 5 % are beyond.
+    let (of_100, of_20) = (share(&|t| t.abs() > 2.947), share(&|t| t.abs() > 2.131));
+    assert!((0.005..0.02).contains(&of_100), "{of_100} are beyond what 0.01 should be");
+    assert!((0.04..0.07).contains(&of_20), "{of_20} are beyond what 0.05 should be");
+    let brighter = share(&|t| t > 0.0);
+    assert!((brighter - 0.5).abs() < 0.03, "{brighter} are brighter");
+}
+
+fn renders() -> Vec<Image> {
+    (1..=RENDERS).map(one).collect()
+}
 
 /// Student's t of each component of each block.
-fn all_t(renders: &[Image], reference: &Image) -> Vec<f64> {
-    let block = BLOCK;
+fn all_t(renders: &[Image], reference: &Image, block: usize) -> Vec<f64> {
     let side = reference.width as usize;
     let n = renders.len() as f64;
     let mut found = Vec::new();
