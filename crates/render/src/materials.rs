@@ -1,6 +1,6 @@
 //! Materials, compiled for Whitted's algorithm: the numbers that shading reads, and the laws of reflection and refraction.
 
-use crate::whitted_reading::{Means, whitted};
+use crate::whitted_reading::{Means, parts_of_color, whitted};
 use durer_math::{DVec3, Rgb, functions};
 use durer_scene::{Classic, Integrator, MaterialKind, Paint, Relief, Sides};
 
@@ -14,6 +14,9 @@ pub(crate) struct Material {
     pub(crate) shininess: f32,
     pub(crate) reflection: Rgb,
     pub(crate) transparency: Rgb,
+    /// The parts of the color where it is met that are mirrored, and that pass, if the color says what is: then the two above
+    /// are what they are in the mean.
+    pub(crate) of_color: [Option<f32>; 2],
     pub(crate) ior: Option<f64>,
     pub(crate) fresnel: bool,
     /// What light loses inside, per unit of length, as the exponent of e (Beer–Lambert), negative.
@@ -56,6 +59,7 @@ impl Material {
         let exponent =
             |a: &durer_scene::Attenuation| a.color.map(|c| (functions::ln(f64::from(c)) / a.distance) as f32);
         let classic = &whitted(&material.kind, means);
+        let [mirrored, passed] = parts_of_color(&material.kind, means);
         let own_emission = Some(material.emission).filter(|emission| !emission.is_black());
         let unlit = unlit(&material.kind, integrator).filter(|_| own_emission.is_none());
         let mut compiled = Material {
@@ -66,6 +70,8 @@ impl Material {
             shininess: classic.shininess,
             reflection: classic.reflection,
             transparency: classic.transparency,
+            // What is not worth a ray anywhere is worth none here.
+            of_color: [mirrored.filter(|_| !classic.reflection.is_black()), passed],
             ior: classic.ior,
             fresnel: classic.fresnel,
             attenuation: classic.attenuation.as_ref().map(exponent),
@@ -90,6 +96,14 @@ impl Material {
             compiled.passed_if_even = compiled.passed(opacity);
         }
         compiled
+    }
+
+    /// What is mirrored, and what passes, where the color is this.
+    #[inline]
+    pub(crate) fn split(&self, color: Rgb) -> [Rgb; 2] {
+        let of_color = |part: f32| color.map(|component| component.min(1.0)) * part;
+        let [mirrored, passed] = self.of_color;
+        [mirrored.map_or(self.reflection, of_color), passed.map_or(self.transparency, of_color)]
     }
 
     /// True if some light gets through.

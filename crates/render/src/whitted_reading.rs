@@ -36,6 +36,22 @@ pub(crate) fn whitted(kind: &MaterialKind, means: &mut Means<'_>) -> Classic {
     }
 }
 
+/// The parts of a color that are mirrored, and that pass: for kinds whose color says what is, not what is given back in all
+/// directions. A texture, or a color of the thing itself, decides about it where it is met.
+pub(crate) fn parts_of_color(kind: &MaterialKind, means: &mut Means<'_>) -> [Option<f32>; 2] {
+    match kind {
+        MaterialKind::Mirror(_) => [Some(1.0), None],
+        MaterialKind::Metal(metal) => match metal.conductor {
+            Conductor::Reflectance(_) => [Some(smooth(means.amount(metal.roughness))), None],
+            Conductor::Named(_) | Conductor::Index { .. } => [None, None],
+        },
+        MaterialKind::Glass(glass) => [None, Some(if glass.thin { 1.0 - mirrored_by_sheet(glass.ior) } else { 1.0 })],
+        MaterialKind::Classic(_) | MaterialKind::Matte(_) | MaterialKind::Plastic(_) | MaterialKind::Principled(_) => {
+            [None, None]
+        }
+    }
+}
+
 /// Gives back this part of light in all directions, and as much of the usual part of ambient light.
 fn diffuse(part: f32) -> Classic {
     Classic { ambient: Classic::default().ambient * part, diffuse: part, ..Classic::default() }
@@ -85,8 +101,13 @@ fn metal(metal: &Metal, means: &mut Means<'_>) -> Classic {
     }
 }
 
-/// Rough glass is shown clear. A thin sheet reflects on both of its sides, once more for each time that light goes to and
-/// fro within: 2 R / (1 + R).
+/// A thin sheet reflects on both of its sides, once more for each time that light goes to and fro within: 2 R / (1 + R).
+fn mirrored_by_sheet(ior: f64) -> f32 {
+    let back = straight_back(ior);
+    2.0 * back / (1.0 + back)
+}
+
+/// Rough glass is shown clear.
 fn glass(glass: &Glass, means: &mut Means<'_>) -> Classic {
     let (shininess, back) = (shininess(means.amount(glass.roughness)), straight_back(glass.ior));
     let clear = Classic {
@@ -97,7 +118,7 @@ fn glass(glass: &Glass, means: &mut Means<'_>) -> Classic {
         ..diffuse(0.0)
     };
     if glass.thin {
-        let reflection = 2.0 * back / (1.0 + back);
+        let reflection = mirrored_by_sheet(glass.ior);
         let transparency = clear.transparency * (1.0 - reflection);
         return Classic { transparency, reflection: worth_a_ray(Rgb::gray(reflection)), ..clear };
     }
@@ -150,7 +171,9 @@ fn cleared(surface: Classic, principled: &Principled, base: Rgb, transmission: f
     let (diffuse, ambient) = (surface.diffuse * share, surface.ambient * share);
     let sheet = Classic { transparency, diffuse, ambient, ..surface };
     if principled.thin {
-        return sheet;
+        // What is mirrored does not pass.
+        let left = (Rgb::WHITE - sheet.reflection).map(|part| part.max(0.0));
+        return Classic { transparency: sheet.transparency * left, ..sheet };
     }
     let attenuation: Option<Attenuation> = principled.attenuation;
     let reflection = sheet.reflection * (1.0 - transmission);

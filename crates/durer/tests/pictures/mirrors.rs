@@ -1,6 +1,7 @@
 //! Mirrors: images behind the glass, images of images, and where the chain of rays ends.
 
 use crate::support::{assert_color, assert_gray, difference, look, picture, scene};
+use durer::math::Rgb;
 use durer::{NotTraced, RayKind};
 
 /// The eye at the origin looks along -z; a lamp and a ball; beside them what differs.
@@ -96,4 +97,45 @@ objects: [plane: {material: {color: 0.6, ambient: 1, transparency: 0.25, reflect
     assert_color(look(text, [0.0, 5.0, 0.0], [0.0, 0.0, 0.0]).color, [0.95, 0.65, 0.45]);
     // Upward: behind is the top, reflected the bottom.
     assert_color(look(text, [0.0, -5.0, 0.0], [0.0, 0.0, 0.0]).color, [0.7; 3]);
+}
+
+/// What is mirrored, and what glass lets pass, has the color of the thing, where it has one of its own.
+#[test]
+fn mirrors_and_glass_have_the_colors_of_things() {
+    let seen = |integrator: &str, objects: &str| {
+        let settings = format!("integrator: {integrator}, antialias: none");
+        picture(scene(&format!(
+            "{{picture: {{width: 3, height: 3}}, render: {{{settings}}}, background: 0.5, ambient: 0, lights: [], \
+             camera: {{position: [0, 0, 5], look_at: [0, 0, 0], fov: 5}}, objects: [{objects}]}}"
+        )))
+        .pixel(1, 1)
+    };
+    let expected = Rgb::new(0.1, 0.3, 0.4);
+    let own = "spheres: {centers: [[0, 0, 0]], colors: [[0.2, 0.6, 0.8]], material: {mirror: {}}}";
+    for integrator in ["whitted", "path"] {
+        let found = seen(integrator, own);
+        assert!((found - expected).map(f32::abs).max_component() < 1e-6, "{integrator}: {found:?}");
+        // Both boundaries of the ball let the color pass once.
+        let glass = own.replace("mirror: {}", "glass: {ior: 1}");
+        let found = seen(integrator, &glass);
+        let expected = Rgb::new(0.02, 0.18, 0.32);
+        assert!((found - expected).map(f32::abs).max_component() < 1e-6, "{integrator}, glass: {found:?}");
+    }
+}
+
+/// Panes in front of an even sky give back no more than there is.
+#[test]
+fn panes_make_no_light() {
+    for material in ["glass: {thin: true}", "principled: {base_color: 1, transmission: 1, roughness: 0, thin: true}"] {
+        let pane = |z: i32| {
+            format!("rectangle: {{corner: [-9, -9, {z}], edges: [[18, 0, 0], [0, 18, 0]], material: {{{material}}}}}")
+        };
+        let objects = (0..3).map(pane).collect::<Vec<_>>().join(", ");
+        let image = picture(scene(&format!(
+            "{{picture: {{width: 3, height: 3}}, render: {{max_depth: 9}}, background: 0.5, ambient: 0, lights: [], \
+             camera: {{position: [0, 0, 5], look_at: [0, 0, 0], fov: 5}}, objects: [{objects}]}}"
+        )));
+        let most = image.pixels.iter().map(|pixel| pixel.max_component()).fold(0.0, f32::max);
+        assert!((0.49..0.500_01).contains(&most), "{material}: {most}");
+    }
 }

@@ -102,7 +102,10 @@ pub(super) fn warn_of_unused(root: &Node, integrator: &Integrator, complaints: &
     };
     for (field, help) in unused {
         if let Some((key, _)) = render.get(field) {
-            let complaint = Complaint::warning(key.span, format!("`{field}` means nothing to `{word}`"));
+            let complaint = Complaint::warning(
+                key.span,
+                format!("`{field}` means nothing to `{word}`, the integrator of this file"),
+            );
             complaints.push(if help.is_empty() { complaint } else { complaint.help(*help) });
         }
     }

@@ -190,10 +190,11 @@ impl<O: Observer> Path<'_, O> {
         if material.reflection.is_black() && !material.is_clear() {
             return;
         }
-        let behind = weight * material.transparency;
+        let [reflection, transparency] = material.split(shading.color);
+        let behind = weight * transparency;
         let boundary = self.boundary(shading);
         // What cannot get through comes from the mirrored direction, like what a mirror adds: one ray serves both.
-        let mirrored = weight * material.reflection + behind * (1.0 - boundary.passed);
+        let mirrored = weight * reflection + behind * (1.0 - boundary.passed);
         if !mirrored.is_black() {
             self.follow(RayKind::Reflected, depth, &shading.mirrored(), mirrored, ANEW);
         }

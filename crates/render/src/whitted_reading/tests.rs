@@ -67,7 +67,8 @@ fn principled_glass_refracts_unless_it_is_thin() {
         (one.transmission, one.thin, one.attenuation) = (gray(0.5), true, attenuation);
         one.base_color = Paint::Color(Rgb::new(1.0, 0.5, 0.5));
     });
-    assert!(near(sheet.transparency, Rgb::new(0.5, 0.25, 0.25)) && near(sheet.reflection, Rgb::gray(0.04)));
+    // What is mirrored does not pass.
+    assert!(near(sheet.transparency, Rgb::new(0.48, 0.24, 0.24)) && near(sheet.reflection, Rgb::gray(0.04)));
     assert_eq!((sheet.ior, sheet.fresnel, sheet.attenuation), (None, false, None));
     // What is left of the surface itself is to be half: 0.5 / (1 - 0.303).
     assert!((sheet.diffuse - 0.717_46).abs() < 1e-4, "{}", sheet.diffuse);
