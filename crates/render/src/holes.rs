@@ -52,14 +52,14 @@ impl<'a> Known<'a> {
 }
 
 /// What a ray meets first but holes.
-#[inline]
+#[inline(always)]
 pub(crate) fn meet(scene: &CompiledScene, ray: &Ray, known: Known<'_>, observer: &mut impl Observer) -> Met {
     let Found { onward, hit, length } = find(scene, ray, known, observer);
     Met { ray: onward.unwrap_or(*ray), hit, length }
 }
 
 /// What a ray meets first but holes.
-#[inline]
+#[inline(always)]
 pub(crate) fn find(scene: &CompiledScene, ray: &Ray, known: Known<'_>, observer: &mut impl Observer) -> Found {
     let hit = match known {
         Known::Hit(hit) => hit,
@@ -75,6 +75,7 @@ pub(crate) fn find(scene: &CompiledScene, ray: &Ray, known: Known<'_>, observer:
 }
 
 /// Goes on as long as what is hit is a hole.
+#[inline(never)]
 fn behind_holes(scene: &CompiledScene, ray: &Ray, first: Hit, observer: &mut impl Observer) -> Found {
     let (mut ray, mut hit, mut length) = (*ray, first, first.crossing.t);
     for _ in 0..MOST_SURFACES {

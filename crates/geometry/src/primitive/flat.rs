@@ -1,5 +1,5 @@
-//! Primitives and eight rays at once: which come near them, and where they meet flat ones. The latter is the arithmetic of `Shape::intersect` and `Primitive::surface`, operation by
-//! operation.
+//! Primitives and eight rays at once: which come near them, and where they meet flat ones. The latter is the arithmetic of
+//! `Shape::intersect` and `Primitive::surface`, operation by operation.
 
 use super::{Kind, Primitive};
 use crate::simd::lanes::Lanes;

@@ -23,9 +23,17 @@ pub struct Aimable {
 struct Flat {
     normal: DVec3,
     offset: f64,
+    /// Of its plane from the origin of the world, along the normal.
+    height: f64,
 }
 
 impl Aimable {
+    /// True if it is flat, and is seen from there from behind, where its normal does not point.
+    #[inline]
+    pub fn is_seen_from_behind(&self, from: DVec3) -> bool {
+        self.flat.is_some_and(|flat| flat.normal.dot(from) < flat.height)
+    }
+
     /// The density, per solid angle, with which [`Primitive::aim`] finds a point on a part of it, as seen from somewhere.
     pub fn pdf(&self, from: DVec3, point: DVec3, part: u32) -> f64 {
         let pdf = self.piece.pdf(from, point, part);
@@ -99,7 +107,11 @@ impl Primitive {
                 self.surface_near(corner, piece.first_part()).offset
             };
             let corners = each_kind!(&self.kind, shape => shape.bounds()).corners();
-            Flat { normal, offset: corners.map(offset).into_iter().fold(0.0, f64::max) }
+            Flat {
+                normal,
+                offset: corners.map(offset).into_iter().fold(0.0, f64::max),
+                height: normal.dot(self.origin),
+            }
         });
         Some(Aimable { piece, flat })
     }
@@ -109,7 +121,7 @@ impl Primitive {
     pub fn aim(&self, target: &Aimable, from: DVec3, at: DVec2) -> Option<Aim> {
         let chosen = target.piece.sample(from, at)?;
         let surface = match target.flat {
-            Some(Flat { normal, offset }) => Surface { point: chosen.point, normal, offset },
+            Some(Flat { normal, offset, height: _ }) => Surface { point: chosen.point, normal, offset },
             None => self.surface_near(chosen.point, chosen.part),
         };
         let side = surface.normal.dot(from - surface.point);

@@ -106,6 +106,9 @@ impl Shapes {
             Some(ready) => ready.as_ref()?,
             None => &Ready::of(scene, self.elements[index])?,
         };
+        if matches!(plain, Some((_, Sides::Front))) && aimable.is_seen_from_behind(from) {
+            return None;
+        }
         let aim = scene.world.primitives()[primitive as usize].aim(aimable, from, at)?;
         let light = match plain {
             Some((light, sides)) if *sides == Sides::Both || aim.direction.dot(aim.surface.normal) < 0.0 => *light,

@@ -227,9 +227,9 @@ impl<O: Observer> Path<'_, O> {
             if shading.bounds_medium {
                 let _ = self.media.cross(shading.primitive, shading.from_outside);
             }
-            (self.state.kind, self.state.ray) = (RayKind::Transmitted, shading.ray_on(direction));
+            self.go_on(RayKind::Transmitted, shading.ray_on(direction));
         } else {
-            (self.state.kind, self.state.ray) = (RayKind::Reflected, shading.ray_back(direction));
+            self.go_on(RayKind::Reflected, shading.ray_back(direction));
         }
         true
     }
@@ -247,11 +247,17 @@ impl<O: Observer> Path<'_, O> {
 
     /// The indices of refraction before and behind a surface; `None` if there is no surface, since the medium that rules here
     /// is the same on both sides.
+    #[inline]
     fn indices(&mut self, shading: &Shading<'_>) -> Option<Indices> {
         let before = self.media.ior(self.scene);
-        if !shading.bounds_medium {
-            return Some(Indices { before, behind: None });
+        if shading.bounds_medium {
+            return self.indices_of_boundary(shading, before);
         }
+        Some(Indices { before, behind: None })
+    }
+
+    #[inline(never)]
+    fn indices_of_boundary(&mut self, shading: &Shading<'_>, before: f64) -> Option<Indices> {
         let ruling = self.media.ruling(self.scene);
         let undo = self.media.cross(shading.primitive, shading.from_outside);
         let (behind, next) = (self.media.ior(self.scene), self.media.ruling(self.scene));
@@ -320,7 +326,17 @@ impl<O: Observer> Path<'_, O> {
         if crosses {
             let _ = self.media.cross(shading.primitive, shading.from_outside);
         }
-        (self.state.kind, self.state.ray) = (RayKind::Transmitted, shading.ray_on(shading.direction));
+        self.go_on(RayKind::Transmitted, shading.ray_on(shading.direction));
+    }
+
+    /// Begins the next segment.
+    #[inline(always)]
+    fn go_on(&mut self, kind: RayKind, ray: Ray) {
+        self.state.kind = kind;
+        // Number by number: processors wait where a copy reads in one piece what was written in several.
+        let (from, to) = (&ray, &mut self.state.ray);
+        (to.origin.x, to.origin.y, to.origin.z) = (from.origin.x, from.origin.y, from.origin.z);
+        (to.direction.x, to.direction.y, to.direction.z) = (from.direction.x, from.direction.y, from.direction.z);
     }
 
     /// The chance of a path of this weight to go on.
