@@ -127,9 +127,12 @@ impl Overrides {
     /// Warns of options that change nothing.
     fn tell_meaningless(&self, integrator: &Integrator) {
         let mut options = self.light.meaningless_to(integrator);
-        let of_antialias = [("--antialias", self.antialias.is_some())];
-        if integrator.takes_samples() {
-            options.extend(of_antialias.iter().filter(|(_, is_given)| *is_given).map(|(option, _)| option));
+        let shows_middles = matches!(integrator, Integrator::Uv);
+        if self.antialias.is_some() && (integrator.takes_samples() || shows_middles) {
+            options.push("--antialias");
+        }
+        if self.filter.is_some() && shows_middles {
+            options.push("--filter");
         }
         if self.max_depth.is_some() && !matches!(integrator, Integrator::Path { .. } | Integrator::Whitted) {
             options.push("--max-depth");

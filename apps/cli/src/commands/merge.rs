@@ -25,7 +25,7 @@ The films must be of one scene with the same settings (but for `samples`, `noise
 `time`), and no two may have the same samples of a pixel. What comes of it is, byte for
 byte, what one render with all their samples makes; what is missing is told, and black in
 a picture. For a picture the scene must be where it was: it says how films are developed.
-Films that are not finished, and checkpoints, count for what they have; `durer resume FILE`
+Films that are not finished, and checkpoints, count for what they have; `durer resume`
 finishes them.";
 
 /// Put films of parts of a picture together

@@ -147,19 +147,25 @@ fn ambient_occlusion_has_closed_forms() {
     }
 }
 
-/// A rectangle from corner to corner of the picture, 3 in front of the camera: what is seen of it is a formula of the place.
+/// A rectangle from corner to corner of the picture, 3 in front of the camera or slanting away from it: what is seen of it is a
+/// formula of the place.
 #[test]
 fn first_surfaces_are_formulas() {
-    let rest = "camera: {position: [0, 0, 3], look_at: [0, 0, 0], orthographic: {height: 2}}\nlights: []\n\
-                objects: [rectangle: {corner: [-1, -1, 0], edges: [[2, 0, 0], [0, 2, 0]]}]\n";
+    let shown = |render: &str, slant: f64| {
+        film(&format!(
+            "picture: {{width: 8, height: 8}}\nrender: {{{render}}}\nlights: []\n\
+             camera: {{position: [0, 0, 3], look_at: [0, 0, 0], orthographic: {{height: 2}}}}\n\
+             objects: [rectangle: {{corner: [-1, -1, {}], edges: [[2, 0, {}], [0, 2, 0]]}}]\n",
+            -slant,
+            2.0 * slant,
+        ))
+        .develop()
+    };
+    let inner = || (1..7).flat_map(|y| (1..7).map(move |x| (x, y)));
     for antialias in ANTIALIAS {
         for filter in ["box", "tent"] {
-            let shown = |integrator: &str| {
-                let render = format!("integrator: {integrator}, antialias: {antialias}, filter: {filter}");
-                film(&format!("picture: {{width: 8, height: 8}}\nrender: {{{render}}}\n{rest}")).develop()
-            };
-            let inner = || (1..7).flat_map(|y| (1..7).map(move |x| (x, y)));
-            let normals = shown("normals");
+            let with = |integrator: &str| format!("integrator: {integrator}, antialias: {antialias}, filter: {filter}");
+            let normals = shown(&with("normals"), 0.0);
             for (x, y) in inner() {
                 assert!(near(normals.pixel(x, y).to_array(), [0.5, 0.5, 1.0]), "{antialias} {filter}");
             }
@@ -167,12 +173,18 @@ fn first_surfaces_are_formulas() {
             if filter != "box" && !["none", "{grid: 2}"].contains(&antialias) {
                 continue;
             }
-            let uv = shown("uv");
+            // White to the right, where it is nearest, and a tenth to the left.
+            let depth = shown(&with("depth"), 1.0);
             for (x, y) in inner() {
-                let expected = [(f64::from(x) + 0.5) / 8.0, 1.0 - (f64::from(y) + 0.5) / 8.0, 0.0];
-                assert!(near(uv.pixel(x, y).to_array(), expected), "{antialias} {filter}: {:?}", uv.pixel(x, y));
+                let expected = [0.1 + 0.9 * (f64::from(x) + 0.5) / 8.0; 3];
+                assert!(near(depth.pixel(x, y).to_array(), expected), "{antialias} {filter}: {:?}", depth.pixel(x, y));
             }
         }
+    }
+    let uv = shown("integrator: uv", 0.0);
+    for (x, y) in inner() {
+        let expected = [(f64::from(x) + 0.5) / 8.0, 1.0 - (f64::from(y) + 0.5) / 8.0, 0.0];
+        assert!(near(uv.pixel(x, y).to_array(), expected), "{:?}", uv.pixel(x, y));
     }
     // From the nearest of a box, white, to the farthest, a tenth, evenly.
     let text = "picture: {width: 1, height: 1}\nrender: {integrator: depth, antialias: none}\nlights: []\n\

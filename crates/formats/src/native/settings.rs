@@ -81,7 +81,17 @@ pub(super) fn warn_of_unused(root: &Node, integrator: &Integrator, complaints: &
             let help = "for light at random say `integrator: path`";
             &[("samples", help), ("noise", help), ("time", help)]
         }
-        Integrator::Normals | Integrator::Depth | Integrator::Uv => &[
+        Integrator::Uv => &[
+            ("max_depth", ""),
+            ("min_weight", ""),
+            ("light_samples", ""),
+            ("samples", ""),
+            ("noise", ""),
+            ("time", ""),
+            ("antialias", "it shows the middle of each pixel"),
+            ("filter", "it shows the middle of each pixel"),
+        ],
+        Integrator::Normals | Integrator::Depth => &[
             ("max_depth", ""),
             ("min_weight", ""),
             ("light_samples", ""),

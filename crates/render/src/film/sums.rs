@@ -314,7 +314,7 @@ mod tests {
     #[test]
     fn steps_are_cut_toward_zero() {
         let numbers = colors().into_iter().flat_map(|(color, _)| color.to_array()).map(f64::from);
-        for number in numbers.chain([0.0, 1.5, 2.0_f64.powi(-61), 2.0_f64.powi(33) + 0.25, 1e300, f64::MIN_POSITIVE]) {
+        for number in numbers.chain([0.0, 1.5, 0.5 / COLOR, (1_u64 << 33) as f64 + 0.25, 1e300, f64::MIN_POSITIVE]) {
             for number in [number, -number] {
                 assert_eq!(fixed(number), (number.clamp(-BRIGHTEST, BRIGHTEST) * COLOR) as i128, "{number}");
             }

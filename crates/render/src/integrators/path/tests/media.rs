@@ -262,7 +262,6 @@ fn half_open_rough_glass_vanishes_in_a_white_sky() {
         let mut scene = before(vec![half_open_glass(roughness)], vec![ball(5.0, 1.0, 0)]);
         scene.background = Background::Color(Rgb::WHITE);
         let found = mean_to(1000, &compile(&scene.check().unwrap()), 60_000);
-        eprintln!("half open {roughness}: {found:?}");
         assert!((found.g - 1.0).abs() < 0.005, "{roughness}: {found:?}");
     }
 }
