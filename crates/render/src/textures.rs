@@ -98,6 +98,15 @@ impl Textures {
         }
     }
 
+    /// How coordinates grow from one point of a surface to another, close by: those of the image if the paint is one, with its
+    /// mapping and its transform, else the surface's own.
+    pub(crate) fn rise(&self, paint: Paint, from: &impl TexturePoint, to: &impl TexturePoint) -> DVec2 {
+        match paint {
+            Paint::Color(_) => going_on(to.uv() - from.uv()),
+            Paint::Texture(texture) => self.textures[texture.0 as usize].rise(from, to),
+        }
+    }
+
     /// Follows paints from texture to texture; only blends recurse, as deep as the scene nests them.
     fn textured(&self, mut id: TextureId, at: &impl TexturePoint) -> Rgb {
         loop {
@@ -127,15 +136,35 @@ impl Texture {
         Texture { space, texture_from_space: inverse_of(&texture.transform), pattern }
     }
 
-    fn shade(&self, at: &impl TexturePoint) -> Shade {
-        let point = match self.space {
-            Space::Object => at.point(),
-            Space::Uv => at.uv().extend(0.0),
-        };
-        let point = match &self.texture_from_space {
+    /// A point of the texture's own space.
+    fn place(&self, point: DVec3) -> DVec3 {
+        match &self.texture_from_space {
             Some(texture_from_space) => texture_from_space.transform_point3(point),
             None => point,
-        };
+        }
+    }
+
+    /// Coordinates of the surface begin anew somewhere, and are transformed after that; those of mappings the other way around.
+    fn rise(&self, from: &impl TexturePoint, to: &impl TexturePoint) -> DVec2 {
+        let rise_of_uv = || going_on(to.uv() - from.uv());
+        match (&self.pattern, self.space) {
+            (Pattern::Image(image), Space::Object) => {
+                let place = |at: DVec3| image.place(self.place(at));
+                going_on(place(to.point()) - place(from.point()))
+            }
+            (Pattern::Image(_), Space::Uv) => {
+                let rise = rise_of_uv();
+                self.texture_from_space.map_or(rise, |map| map.transform_vector3(rise.extend(0.0)).truncate())
+            }
+            _ => rise_of_uv(),
+        }
+    }
+
+    fn shade(&self, at: &impl TexturePoint) -> Shade {
+        let point = self.place(match self.space {
+            Space::Object => at.point(),
+            Space::Uv => at.uv().extend(0.0),
+        });
         match &self.pattern {
             Pattern::Checker(checker) => checker.shade(point),
             Pattern::Stripes(stripes) => stripes.shade(point),
@@ -181,6 +210,12 @@ impl Pattern {
             }
         }
     }
+}
+
+/// How coordinates grow over a short way. Where they begin anew, as behind a sphere, they have gone on.
+pub(crate) fn going_on(rise: DVec2) -> DVec2 {
+    let each = |rise: f64| if rise.abs() > 0.5 && rise.abs() < 1.0 { rise - rise.round() } else { rise };
+    DVec2::new(each(rise.x), each(rise.y))
 }
 
 /// The way back; `None` where there is nothing to undo.

@@ -1,6 +1,6 @@
 //! Scenes that look the same everywhere.
 
-use crate::support::assert_pixel;
+use crate::support::{assert_pixel, pixel};
 
 /// From inside of a ball that gives off light L and gives back the part ρ, L/(1 - ρ) is seen.
 #[test]
@@ -30,5 +30,26 @@ fn half_of_a_ball_of_glass() {
              objects: [sphere: {{material: {{{glass}}}}}]\n"
         );
         assert_pixel("{path: {max_depth: 1000}}", 4096, &scene, 1.0);
+    }
+}
+
+/// Rough balls that lose no light do not make any, either, however often it goes through or to and fro inside: summed up over
+/// the whole ball, they are as bright as the sky.
+#[test]
+fn rough_balls_in_an_even_sky() {
+    for material in [
+        "metal: {color: 1, roughness: 0.6}",
+        "glass: {roughness: 0.3}",
+        "glass: {roughness: 0.5}",
+        "glass: {thin: true, roughness: 0.3}",
+    ] {
+        let scene = format!(
+            "background: 1\nlights: []\n\
+             camera: {{position: [0, 0, 5], look_at: [0, 0, 0], orthographic: {{height: 1.6}}}}\n\
+             objects: [sphere: {{material: {{{material}}}}}]\n"
+        );
+        let (found, error) = pixel("{path: {max_depth: 1000}}", 131_072, &scene);
+        assert!(error < 6e-4, "too noisy to tell: {material}: {found:?} ± {error}");
+        assert!((found.g - 1.0).abs() < 1.5e-3, "{material}: {found:?} ± {error}");
     }
 }

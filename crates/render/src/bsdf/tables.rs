@@ -14,9 +14,11 @@ use std::f64::consts::PI;
 use std::sync::{LazyLock, OnceLock};
 
 /// Steps of roughness (the square root of α), and of the square root of the cosine: both lie closest where tables bend.
-const STEPS: usize = 16;
-/// Directions summed for each entry.
-const SUMMED: u32 = 768;
+const STEPS: usize = 24;
+/// Directions summed for each entry: a number of Fibonacci's, so that their lattice has no seam.
+const SUMMED: u32 = 610;
+/// Fibonacci's number before it.
+const TURNS: u32 = 377;
 
 /// A function of cosine and roughness between its nodes: bilinear.
 #[derive(Clone, Debug)]
@@ -218,16 +220,25 @@ fn average(row: &[f32; STEPS + 1]) -> f32 {
     sum as f32
 }
 
-/// The mean of a function over the unit square.
+/// The mean of a function over the unit square, of which y goes around.
+///
+/// Summed functions of visible normals bend, and fall steeply, where x is near 1, which is where light leaves along the
+/// surface. Points lie closer there and count less: x = 1 - (1 - t)² for even t. With evenly spread ones sums came out too
+/// small, and what uses them gave back a thousandth more light than there was.
 fn mean(f: impl Fn(DVec2) -> f64) -> f64 {
-    (0..SUMMED).map(|k| f(spread(k))).sum::<f64>() / f64::from(SUMMED)
+    let part = |k: u32| {
+        let (at, weight) = spread(k);
+        weight * f(at)
+    };
+    (0..SUMMED).map(part).sum::<f64>() / f64::from(SUMMED)
 }
 
-/// Evenly spread points of the unit square: Roberts's R2 sequence, by the plastic number.
-fn spread(k: u32) -> DVec2 {
-    const PLASTIC: f64 = 1.324_717_957_244_746;
-    let p = DVec2::new(1.0 / PLASTIC, 1.0 / (PLASTIC * PLASTIC)) * f64::from(k) + DVec2::splat(0.5);
-    p - p.floor()
+/// Points of Fibonacci's lattice, drawn towards x = 1, and what each counts.
+fn spread(k: u32) -> (DVec2, f64) {
+    let n = f64::from(SUMMED);
+    let left = 1.0 - (f64::from(k) + 0.5) / n;
+    let y = (f64::from(k * TURNS % SUMMED) + 0.5) / n;
+    (DVec2::new(1.0 - left * left, y), 2.0 * left)
 }
 
 #[cfg(test)]
@@ -254,6 +265,38 @@ mod tests {
             near(REFLECTED.schlick.at(cos, alpha), sphere_integral(&schlick));
             let glass = |toward| reflected(toward).0 * fresnel::dielectric(reflected(toward).1, 1.5).reflectance;
             near(DIELECTRIC.reflected(cos, alpha, 1.5), sphere_integral(&glass));
+        }
+    }
+
+    /// What is missing is added, so tables that are too low on the whole would make light.
+    #[test]
+    fn tables_are_neither_low_nor_high_on_the_whole() {
+        for roughness in [0.15_f64, 0.25, 0.35, 0.55, 0.8, 1.0] {
+            let alpha = roughness * roughness;
+            let ggx = Ggx::new(DVec2::splat(alpha)).unwrap();
+            let mut off = [0.0; 2];
+            for step in 0..10 {
+                let cos = 0.05 + 0.1 * f64::from(step);
+                let out = DVec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
+                let normals = 300;
+                let summed = |part: &dyn Fn(DVec3) -> f64| {
+                    let each = |k: u32| {
+                        let [x, y] = [k / normals, k % normals].map(|i| (f64::from(i) + 0.5) / f64::from(normals));
+                        part(ggx.sample(out, DVec2::new(x, y)))
+                    };
+                    (0..normals * normals).map(each).sum::<f64>() / f64::from(normals * normals)
+                };
+                let mirror = summed(&|h| {
+                    let toward = h * (2.0 * out.dot(h)) - out;
+                    if toward.z > 0.0 { kept(&ggx, out, toward) } else { 0.0 }
+                });
+                let weight = 0.2 * cos;
+                off[0] += weight * (REFLECTED.all.at(cos, alpha) - mirror);
+                let eta = 1.0 / 1.5;
+                let glass = summed(&|h| reflected_part(&ggx, out, h, eta) + transmitted_part(&ggx, out, h, eta));
+                off[1] += weight * (DIELECTRIC.either(cos, alpha, eta) - glass);
+            }
+            assert!(off.iter().all(|off| off.abs() < 1e-3), "roughness {roughness}: off by {off:?}");
         }
     }
 

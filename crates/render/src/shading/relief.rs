@@ -3,6 +3,7 @@
 //! Blinn, "Simulation of Wrinkled Surfaces", SIGGRAPH 1978.
 
 use super::{Shading, Textured, seen_by};
+use crate::textures::{TexturePoint, going_on};
 use durer_geometry::Surface;
 use durer_math::{DMat3, DVec2, DVec3, any_orthonormal_pair};
 use durer_scene::{Bump, NormalMap, Relief};
@@ -22,15 +23,17 @@ pub(super) fn normal(relief: &Relief, textured: &Textured<'_>, shading: &Shading
     seen_by(if shading.from_outside { turned } else { -turned }, shading.direction)
 }
 
-/// A map's vectors are along u, v and the normal.
+/// A map's vectors are along the image, up it, and along the normal, however the image lies on the surface: so it shows the same
+/// relief as the heights that it is made from.
 fn of_map(map: &NormalMap, textured: &Textured<'_>, normal: DVec3) -> Option<DVec3> {
     let color = textured.scene.textures.color(map.texture, textured);
     let [x, y, z] = color.to_array().map(|c| f64::from(c) * 2.0 - 1.0);
     let strength = f64::from(map.strength);
-    let [along_u, along_v] = tangents(textured, normal)?;
+    let rise = |from: &Textured<'_>, to: &Textured<'_>| textured.scene.textures.rise(map.texture, from, to);
+    let [along_u, along_v] = directions(textured, normal, rise).or_else(|| tangents(textured, normal))?;
     let x_axis = (along_u - normal * normal.dot(along_u)).try_normalize()?;
     let across = normal.cross(x_axis);
-    // Where a texture is mirrored, v runs the other way.
+    // Where the image is mirrored, v runs the other way.
     let y_axis = if across.dot(along_v) < 0.0 { -across } else { across };
     (x_axis * (x * strength) + y_axis * (y * strength) + normal * z).try_normalize()
 }
@@ -55,18 +58,25 @@ fn of_heights(bump: &Bump, textured: &Textured<'_>, normal: DVec3) -> Option<DVe
 }
 
 /// How the surface runs where u or v grows, in the world; `None` where its coordinates do not say.
+pub(crate) fn tangents(textured: &Textured<'_>, normal: DVec3) -> Option<[DVec3; 2]> {
+    directions(textured, normal, |from, to| going_on(to.uv() - from.uv()))
+}
+
+/// How the surface runs where one of two coordinates grows, in the world, if `rise` says how they do from point to point.
 ///
 /// Taken numerically, so that every shape has tangents by having coordinates.
-pub(crate) fn tangents(textured: &Textured<'_>, normal: DVec3) -> Option<[DVec3; 2]> {
+fn directions(
+    textured: &Textured<'_>,
+    normal: DVec3,
+    rise: impl Fn(&Textured<'_>, &Textured<'_>) -> DVec2,
+) -> Option<[DVec3; 2]> {
     let step = step(textured);
     let (x, y) = any_orthonormal_pair(normal);
     let point = textured.surface.point;
     let slope = |along: DVec3| {
-        let uv = |at: DVec3| textured.scene.world.uv(at, textured.hit);
-        let rise = uv(point + along * step) - uv(point - along * step);
-        // Where coordinates begin anew, as behind a sphere, they have gone on.
-        let unwrapped = |rise: f64| if rise.abs() > 0.5 && rise.abs() < 1.0 { rise - rise.round() } else { rise };
-        DVec2::new(unwrapped(rise.x), unwrapped(rise.y)) / (2.0 * step)
+        let [before, after] = [-step, step].map(|way| Surface { point: point + along * way, ..*textured.surface });
+        let at = |surface| Textured { surface, ..*textured };
+        rise(&at(&before), &at(&after)) / (2.0 * step)
     };
     let (along_x, along_y) = (slope(x), slope(y));
     let uv_from_plane = DMat3::from_cols(along_x.extend(0.0), along_y.extend(0.0), DVec3::Z);
@@ -93,15 +103,25 @@ mod tests {
     use super::*;
     use crate::compile::compile;
     use durer_geometry::Ray;
+    use durer_imaging::Bitmap;
     use durer_math::Rgb;
-    use durer_scene::{Material, MaterialId, Object, ObjectKind, Paint, Scene, Shape, Texture, TextureId};
+    use durer_scene::{
+        ImageAsset, Mapping, Material, MaterialId, Object, ObjectKind, Paint, Scene, Shape, Texture, TextureId,
+        TransformStep,
+    };
+    use std::sync::Arc;
 
     /// The normal that is seen at a point of the square from (-1, -1) to (1, 1), which faces up, from above or below.
     fn seen(relief: Relief, textures: Vec<Texture>, from_above: bool) -> DVec3 {
+        seen_with(relief, textures, Vec::new(), from_above)
+    }
+
+    fn seen_with(relief: Relief, textures: Vec<Texture>, bitmaps: Vec<Arc<Bitmap>>, from_above: bool) -> DVec3 {
         let square = Shape::Rectangle { corner: DVec3::new(-1.0, 0.0, 1.0), edges: [DVec3::X * 2.0, DVec3::Z * -2.0] };
         let scene = Scene {
             materials: vec![Material { relief: Some(relief), ..Material::default() }],
             textures,
+            images: bitmaps.into_iter().map(|bitmap| ImageAsset { file: "a.png".to_owned(), bitmap }).collect(),
             objects: vec![Object { material: Some(MaterialId(0)), ..Object::new(ObjectKind::Shape(square)) }],
             ..Scene::default()
         };
@@ -147,5 +167,45 @@ mod tests {
         // From below hills are hollows.
         let found = seen(bump, vec![texture], false);
         assert!((found - DVec3::new(0.6, -0.8, 0.0)).length() < 1e-3, "{found}");
+    }
+
+    /// A map on an image that is mirrored, turned or laid by a mapping leans where the heights do that it is made from.
+    #[test]
+    fn maps_lie_as_their_images_do() {
+        let laid = |color: [f32; 3], mapping, transform: Vec<TransformStep>| {
+            let texels = durer_imaging::Texels::F32(vec![color]);
+            let bitmap = Arc::new(Bitmap { width: 1, height: 1, texels, alpha: None });
+            let image = durer_scene::ImageTexture {
+                image: durer_scene::ImageId(0),
+                mapping,
+                wrap: durer_scene::Wrap::Repeat,
+                filter: durer_scene::Filter::Nearest,
+                encoding: durer_scene::Encoding::Linear,
+                channels: durer_scene::Channels::Color,
+                tint: Rgb::WHITE,
+            };
+            let pattern = durer_scene::Pattern::Image(image);
+            let texture = Texture { name: None, pattern, transform: durer_scene::Transform { steps: transform } };
+            let map = NormalMap { texture: Paint::Texture(TextureId(0)), strength: 1.0 };
+            seen_with(Relief::NormalMap(map), vec![texture], vec![bitmap], true)
+        };
+        let near = |found: DVec3, expected: DVec3| {
+            assert!((found - expected).length() < 1e-6, "{found} is not {expected}");
+        };
+        let along_u = [0.8, 0.5, 0.9];
+        let turn = |degrees| vec![TransformStep::Rotate { axis: DVec3::Z, degrees }];
+        near(laid(along_u, Mapping::Uv, Vec::new()), DVec3::new(0.6, 0.8, 0.0));
+        near(
+            laid(along_u, Mapping::Uv, vec![TransformStep::Scale(DVec3::new(-1.0, 1.0, 1.0))]),
+            DVec3::new(-0.6, 0.8, 0.0),
+        );
+        near(
+            laid([0.5, 0.8, 0.9], Mapping::Uv, vec![TransformStep::Scale(DVec3::new(-3.0, 2.0, 1.0))]),
+            DVec3::new(0.0, 0.8, -0.6),
+        );
+        near(laid(along_u, Mapping::Uv, turn(90.0)), DVec3::new(0.0, 0.8, -0.6));
+        // Straight down y: the image's own x runs along x, and its y along z.
+        let lying = vec![TransformStep::Rotate { axis: DVec3::X, degrees: 90.0 }];
+        near(laid([0.5, 0.8, 0.9], Mapping::Planar, lying), DVec3::new(0.0, 0.8, 0.6));
     }
 }

@@ -33,7 +33,7 @@ impl Image {
 
     /// The linear colour at a point of the texture's space; for [`Mapping::Uv`], at (u, v, anything).
     pub(super) fn color(&self, point: DVec3) -> Rgb {
-        let place = place_on_image(self.mapping, point);
+        let place = self.place(point);
         let [width, height] = self.texels.size();
         let in_pixels = place * DVec2::new(f64::from(width), f64::from(height));
         let found = match self.filter {
@@ -41,6 +41,11 @@ impl Image {
             Filter::Bilinear => self.bilinear(in_pixels - 0.5),
         };
         (found * self.tint).map(|component| component.min(BRIGHTEST))
+    }
+
+    /// Where on the image a point of the texture's space is: from (0, 0) at its lower left corner to (1, 1).
+    pub(super) fn place(&self, point: DVec3) -> DVec2 {
+        place_on_image(self.mapping, point)
     }
 
     /// Blends the four pixels around a place that counts pixels from centre to centre.
