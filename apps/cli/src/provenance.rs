@@ -35,13 +35,14 @@ pub(crate) fn of_render(loaded: Fingerprint, rendered: &Scene, crop: Option<Regi
             entry("Antialias", antialias_text(settings.antialias)),
             entry("Filter", filter_text(settings.filter)),
         ]),
-        Integrator::Path { max_depth, clamp } => {
+        Integrator::Path { max_depth, clamp, split } => {
             entries.extend([
                 entry("Integrator", settings.integrator.word()),
                 entry("Filter", filter_text(settings.filter)),
                 entry("Max depth", max_depth.to_string()),
             ]);
             entries.extend(clamp.map(|clamp| entry("Clamp", clamp.to_string())));
+            entries.extend((split > 1).then(|| entry("Split", split.to_string())));
             entries.extend(of_sampling(&settings));
         }
         Integrator::AmbientOcclusion { distance } => {

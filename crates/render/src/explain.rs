@@ -169,8 +169,8 @@ pub fn explain(scene: &CompiledScene, x: u32, y: u32) -> Option<PixelExplanation
         return None;
     }
     match scene.settings.integrator {
-        Integrator::Path { max_depth, clamp } => {
-            return explain_samples(scene, &PathTracer { max_depth, clamp }, (x, y));
+        Integrator::Path { max_depth, clamp, split } => {
+            return explain_samples(scene, &PathTracer { max_depth, clamp, split }, (x, y));
         }
         Integrator::AmbientOcclusion { distance } => {
             let distance = distance.unwrap_or(f64::INFINITY);

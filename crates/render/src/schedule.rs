@@ -168,8 +168,8 @@ fn samples_of(scene: &CompiledScene, options: &RenderOptions) -> Result<Option<S
 /// Takes samples with the integrator that the scene wants.
 fn take_samples(scene: &CompiledScene, goal: Goal, film: &mut Film, progress: &dyn Progress) {
     match scene.settings.integrator {
-        Integrator::Path { max_depth, clamp } => {
-            take_samples_with(scene, &PathTracer { max_depth, clamp }, goal, film, progress);
+        Integrator::Path { max_depth, clamp, split } => {
+            take_samples_with(scene, &PathTracer { max_depth, clamp, split }, goal, film, progress);
         }
         Integrator::AmbientOcclusion { distance } => {
             let distance = distance.unwrap_or(f64::INFINITY);

@@ -117,6 +117,8 @@ pub enum Integrator {
         /// Samples brighter than this (largest component) are lowered to it, which takes fireflies away and some light with
         /// them; `None` leaves all as it is.
         clamp: Option<f32>,
+        /// How many paths go on from the first surface that spreads light; from 1.
+        split: u32,
     },
     /// How much of the sky each point sees.
     AmbientOcclusion {
@@ -133,7 +135,7 @@ pub enum Integrator {
 
 impl Integrator {
     /// The path tracer, as it is unless something else is said.
-    pub const PATH: Integrator = Integrator::Path { max_depth: 16, clamp: None };
+    pub const PATH: Integrator = Integrator::Path { max_depth: 16, clamp: None, split: 1 };
 
     /// True if it takes samples at random; the others look where anti-aliasing says.
     pub fn takes_samples(&self) -> bool {

@@ -288,9 +288,10 @@ fn integrator_text(render: &RenderSettings) -> String {
     };
     let what = match render.integrator {
         Integrator::Whitted => format!("depth {depth}, antialias {antialias}"),
-        Integrator::Path { max_depth, clamp } => {
+        Integrator::Path { max_depth, clamp, split } => {
             let clamp = clamp.map_or(String::new(), |clamp| format!(", clamp {clamp}"));
-            format!("path, depth {max_depth}{clamp}, {}", samples_text(render))
+            let split = if split > 1 { format!(", split {split}") } else { String::new() };
+            format!("path, depth {max_depth}{clamp}{split}, {}", samples_text(render))
         }
         Integrator::AmbientOcclusion { distance } => {
             let distance = distance.map_or(String::new(), |distance| format!(", distance {distance}"));

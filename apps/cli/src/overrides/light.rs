@@ -86,14 +86,15 @@ fn integrator(text: &str) -> Result<Integrator, String> {
         Some((word, numbers)) => (word, numbers.split(',').collect::<Vec<_>>()),
         None => (text, Vec::new()),
     };
-    let Integrator::Path { max_depth, clamp } = Integrator::PATH else { return Err(wrong()) };
+    let Integrator::Path { max_depth, clamp, split } = Integrator::PATH else { return Err(wrong()) };
     match (word, &numbers[..]) {
         ("whitted", []) => Ok(Integrator::Whitted),
-        ("path", []) => Ok(Integrator::Path { max_depth, clamp }),
-        ("path", [depth]) => Ok(Integrator::Path { max_depth: depth.parse().map_err(|_| wrong())?, clamp }),
+        ("path", []) => Ok(Integrator::Path { max_depth, clamp, split }),
+        ("path", [depth]) => Ok(Integrator::Path { max_depth: depth.parse().map_err(|_| wrong())?, clamp, split }),
         ("path", [depth, clamp]) => Ok(Integrator::Path {
             max_depth: depth.parse().map_err(|_| wrong())?,
             clamp: Some(clamp.parse().map_err(|_| wrong())?),
+            split,
         }),
         ("ambient_occlusion" | "ambient-occlusion", []) => Ok(Integrator::AmbientOcclusion { distance: None }),
         ("ambient_occlusion" | "ambient-occlusion", [distance]) => {
@@ -120,8 +121,8 @@ mod tests {
         for word in ["whitted", "path", "ambient_occlusion", "normals", "depth", "uv"] {
             assert_eq!(Ok(of(word)), integrator(word));
         }
-        assert_eq!(integrator("path:32"), Ok(Integrator::Path { max_depth: 32, clamp: None }));
-        assert_eq!(integrator("path:32,10"), Ok(Integrator::Path { max_depth: 32, clamp: Some(10.0) }));
+        assert_eq!(integrator("path:32"), Ok(Integrator::Path { max_depth: 32, clamp: None, split: 1 }));
+        assert_eq!(integrator("path:32,10"), Ok(Integrator::Path { max_depth: 32, clamp: Some(10.0), split: 1 }));
         let near = Integrator::AmbientOcclusion { distance: Some(0.5) };
         assert_eq!(integrator("ambient_occlusion:0.5"), Ok(near));
         for wrong in ["", "paths", "path:", "path:x", "path:1,2,3", "uv:1", "whitted:3"] {

@@ -65,6 +65,23 @@ fn a_glowing_ball_by_every_stop_and_filter() {
     }
 }
 
+/// The same if samples are split, with less noise for as many samples.
+#[test]
+fn a_glowing_ball_by_samples_that_are_split() {
+    let material = "matte: {color: 0.8, emission: 1}";
+    let of = |split: u32| {
+        let render = format!("integrator: {{path: {{max_depth: 1000, split: {split}}}}}, samples: 64");
+        let image = film(&in_a_ball(24, &render, material)).develop();
+        let off = image.pixels.iter().map(|pixel| f64::from(pixel.g) - 5.0);
+        let (sum, squares) = off.fold((0.0, 0.0), |(sum, squares), off| (sum + off, squares + off * off));
+        assert!((sum / 576.0).abs() < 0.02, "{} more than 5", sum / 576.0);
+        squares
+    };
+    // All noise is of what comes behind the first surface: that of two tries is half as much, if not less.
+    let [whole, halves, parts] = [1, 2, 5].map(of);
+    assert!(halves < 0.6 * whole && parts < 0.3 * whole, "{whole} {halves} {parts}");
+}
+
 /// A time ends within a pass, and noise where there is little: they are not the same as taking all samples.
 #[test]
 fn samples_end_where_they_should() {

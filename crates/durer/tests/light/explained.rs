@@ -4,14 +4,20 @@ use durer::{Limits, NoAssets, RenderOptions};
 
 #[test]
 fn paths_add_up_to_the_pixel_to_the_last_bit() {
+    adds_up("path");
+    adds_up("{path: {split: 3}}");
+}
+
+fn adds_up(integrator: &str) {
     let text = "
         picture: {width: 8, height: 6}
-        render: {integrator: path, samples: 5, filter: mitchell}
+        render: {integrator: INTEGRATOR, samples: 5, filter: mitchell}
         background: [0.2, 0.3, 0.4]
         objects:
           - plane: {material: {matte: {color: 0.5}}}
           - sphere: {center: [0, 1, 0], material: {glass: {ior: 1.5}}}
           - sphere: {center: [2, 3, 1], radius: 0.5, material: {matte: {color: black, emission: 9}}}";
+    let text = &text.replace("INTEGRATOR", integrator);
     let loaded = durer::load_str(text, "scene.yaml", &NoAssets, &Limits::default()).unwrap();
     let scene = durer::compile(&loaded.scene);
     let film = durer::render(&scene, &RenderOptions::default(), &()).unwrap();

@@ -117,6 +117,7 @@ choice! { Integrator, "integrator";
     {
         max_depth: u32 = 16 => "The most surfaces that light may meet on its way from a light to the eye, 1 to 1e6.";
         clamp: Option<f32> = None => "Samples brighter than this are lowered to it: it takes away fireflies, and some light.";
+        split: u32 = 1 => "So many paths go on from the first surface of each sample that spreads light, 1 to 64: a sample takes longer, and where most light comes by way of other things it has less noise for the time.";
     }
     AmbientOcclusion "ambient_occlusion": "How much of the sky each point sees.",
     example "integrator: {ambient_occlusion: {distance: 2}}",

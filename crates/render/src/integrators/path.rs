@@ -3,7 +3,8 @@
 //! One path is followed from the eye. Where it meets a surface, light is looked for in two ways: by aiming at an emitter,
 //! and by going on in a direction that the surface likes and meeting an emitter there. Each finds some light better than the
 //! other; the power heuristic weighs them (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, §9).
-//! Paths of little weight end by Russian roulette.
+//! Paths of little weight end by Russian roulette. Where a sample first meets a surface that spreads light, it may be split:
+//! what comes by way of other things is most of the noise, and the way to there is traced once for several tries.
 //!
 //! As with the classic integrator, a sample is one sum of contributions that carry their full weight.
 
@@ -28,6 +29,8 @@ pub(crate) struct PathTracer {
     pub(crate) max_depth: u32,
     /// The most that one contribution of light which came by more than one surface may bring (its largest component).
     pub(crate) clamp: Option<f32>,
+    /// How many paths go on from the first surface that spreads light.
+    pub(crate) split: u32,
 }
 
 /// Russian roulette begins with segments of this number.
@@ -59,7 +62,16 @@ impl Integrator for PathTracer {
             aimed: None,
             way: 0.0,
         };
-        let mut path = Path { tracer: self, scene, sampler, media, state, sum: Rgb::BLACK, observer };
+        let mut path = Path {
+            tracer: self,
+            scene,
+            sampler: *sampler,
+            is_split: self.split == 1,
+            media,
+            state,
+            sum: Rgb::BLACK,
+            observer,
+        };
         path.follow(known);
         path.sum
     }
@@ -69,7 +81,9 @@ impl Integrator for PathTracer {
 struct Path<'a, O> {
     tracer: &'a PathTracer,
     scene: &'a CompiledScene,
-    sampler: &'a Sampler,
+    sampler: Sampler,
+    /// True if it is one of several, or to remain one.
+    is_split: bool,
     /// Around the origin of its last segment.
     media: Media,
     state: State,
@@ -182,10 +196,37 @@ impl<O: Observer> Path<'_, O> {
         }
         let receiver =
             Receiver { point: shading.origin_back(), normal: shading.normal(), passes: bsdf.spreads_through() };
-        let step = self.step();
         if !bsdf.is_specular() {
             self.aim(shading, (&frame, out), &bsdf, &receiver);
         }
+        if self.is_split || bsdf.is_specular() {
+            return self.turn(shading, (&frame, out), (&bsdf, indices), receiver);
+        }
+        self.is_split = true;
+        let (sampler, state, media) = (self.sampler, self.state, self.media.clone());
+        let ways = self.tracer.split;
+        let share = 1.0 / ways as f32;
+        for number in 0..ways {
+            (self.sampler, self.media) = (sampler.split(number, ways), media.clone());
+            self.state = State { weight: state.weight * share, scale: state.scale * share, ..state };
+            if self.turn(shading, (&frame, out), (&bsdf, indices), receiver) {
+                self.state.met += 1;
+                self.follow(Known::Nothing);
+            }
+        }
+        false
+    }
+
+    /// The next segment from a surface, in a direction that it likes.
+    #[inline]
+    fn turn(
+        &mut self,
+        shading: &Shading<'_>,
+        (frame, out): (&Frame, DVec3),
+        (bsdf, indices): (&Bsdf, Indices),
+        receiver: Receiver,
+    ) -> bool {
+        let step = self.step();
         let lobe = if bsdf.has_one_lobe() { 0.0 } else { self.sampler.one(step, Purpose::Lobe) };
         let Some(scattered) = bsdf.sample(out, lobe, self.sampler.two(step, Purpose::Direction)) else {
             return false;

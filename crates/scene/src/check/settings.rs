@@ -171,7 +171,8 @@ fn render(c: &mut Checker<'_>) {
 /// The integrator, and how much it samples.
 fn sampling(c: &mut Checker<'_>, settings: RenderSettings) {
     c.field("integrator", |c| match settings.integrator {
-        Integrator::Path { max_depth, clamp } => c.field("path", |c| {
+        Integrator::Path { max_depth, clamp, split } => c.field("path", |c| {
+            c.within("split", split.into(), 1.0, 64.0);
             c.within("max_depth", max_depth.into(), 1.0, 1e6);
             if let Some(clamp) = clamp {
                 let message = "clamp must be above 0 and at most 1e12; without it nothing is lowered";

@@ -152,7 +152,11 @@ impl Maker<'_, '_> {
 
     fn integrator(&mut self) -> Integrator {
         match self.dice.below(8) {
-            4 => Integrator::Path { max_depth: 1 + self.dice.below(6) as u32, clamp: None },
+            4 => Integrator::Path {
+                max_depth: 1 + self.dice.below(6) as u32,
+                clamp: None,
+                split: 1 + self.dice.below(3) as u32,
+            },
             5 => Integrator::AmbientOcclusion { distance: self.option(Self::size) },
             6 => Integrator::Normals,
             7 => self.dice.one_of(&[Integrator::Depth, Integrator::Uv]),
