@@ -148,6 +148,9 @@ fn make_mutants(seeds: &[PathBuf], folder: &Path, count: u32) -> Result<(), Stri
     files.sort_unstable();
     let read = |path: &PathBuf| std::fs::read(path).map_err(|error| wrong(path, error));
     let seeds = files.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    if seeds.is_empty() {
+        return Err("there are no seeds to make tries of".to_owned());
+    }
     let _ = std::fs::remove_dir_all(folder);
     create(folder)?;
     for number in 0..count {

@@ -67,8 +67,8 @@ pub struct RayExplanation {
     pub hit: Option<HitExplanation>,
     /// The lights, as seen from there.
     pub lights: Vec<LightExplanation>,
-    /// Of a path: how it went on from there.
-    pub scattering: Option<Scattering>,
+    /// Of a path: how it went on from there, once for each way into which it was split.
+    pub scattering: Vec<Scattering>,
     /// What it added to the sample, in order, weights included.
     pub contributions: Vec<Contribution>,
     /// Rays that the surface asked for but that were not traced.
@@ -261,7 +261,7 @@ impl Observer for Recorder<'_> {
             holes: Vec::new(),
             hit: None,
             lights: Vec::new(),
-            scattering: None,
+            scattering: Vec::new(),
             contributions: Vec::new(),
             not_traced: Vec::new(),
             children: Vec::new(),
@@ -305,7 +305,7 @@ impl Observer for Recorder<'_> {
     }
 
     fn scattering(&mut self, scattering: &Scattering) {
-        self.with_ray(|ray| ray.scattering = Some(*scattering));
+        self.with_ray(|ray| ray.scattering.push(*scattering));
     }
 
     fn not_traced(&mut self, kind: RayKind, weight: Rgb, why: NotTraced) {

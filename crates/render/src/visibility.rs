@@ -15,9 +15,9 @@ pub(crate) const SHORT_OF_LIGHT: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;
 pub(crate) const MOST_SURFACES: u32 = 100_000;
 
 /// What is left of light on the way along `ray` over `distance`: nothing behind something opaque; else the product of
-/// what all clear surfaces let pass and of what media take away; under path tracing also of the square of how much denser what is
-/// left through holes is than what is around it, since radiance there is so many times as great. `media` are those around the
-/// ray's origin.
+/// what all clear surfaces let pass and of what media take away; under path tracing also of the square of how much denser
+/// what is left through holes is than what is around it, since radiance there is so many times as great. `media` are those
+/// around the ray's origin.
 ///
 /// If there is a vantage, the ray must be aimed at its point. It goes straight, also through what would bend it.
 #[inline]
@@ -31,11 +31,17 @@ pub(crate) fn visibility(
     let reach = distance * SHORT_OF_LIGHT;
     let mut left = Rgb::WHITE;
     let mut clear = false;
+    // Only through holes does light leave what bends it without being bent: then the index around is not the same on all of the
+    // way, and surfaces must be met in their order.
+    let changes = scene.stretches && !media.is_empty();
     let dark = scene.world.any_hit(ray, reach, light, |id, primitive| {
         if primitive.mask & OPAQUE != 0 {
             return true;
         }
         clear = true;
+        if changes {
+            return false;
+        }
         left *= match scene.objects[id as usize].looks.is_uneven {
             false => through(scene.material(id).passed_if_even, primitive.count_crossings(ray, reach)),
             true => through_each(scene, id, primitive, media.ior(scene), ray, reach),
@@ -44,8 +50,8 @@ pub(crate) fn visibility(
     });
     if dark {
         Rgb::BLACK
-    } else if scene.attenuates && (clear || !media.is_empty()) || scene.stretches && clear && !media.is_empty() {
-        left * through_media(scene, media, *ray, reach)
+    } else if scene.attenuates && (clear || !media.is_empty()) || changes && clear {
+        left * through_media(scene, media, *ray, reach, changes)
     } else {
         left
     }
@@ -57,7 +63,7 @@ fn through(passed: Rgb, surfaces: u32) -> Rgb {
 }
 
 /// What is left behind all surfaces of a primitive, each of which may let something else pass. What lets light go straight
-/// does not change the index of refraction around it: that is the same on all of the way.
+/// does not change the index of refraction around it: that is the same on all of the way, unless that leads out of a hole.
 fn through_each(scene: &CompiledScene, id: u32, primitive: &Primitive, around: f64, ray: &Ray, reach: f64) -> Rgb {
     let mut left = Rgb::WHITE;
     let _ = primitive.each_crossing(ray, reach, |ray, crossing, surface| {
@@ -83,10 +89,11 @@ fn passed(scene: &CompiledScene, ray: &Ray, hit: &Hit, surface: &Surface, around
     straight * opacity + (Rgb::WHITE - opacity)
 }
 
-/// What media leave of light, and how radiance changes between them: goes from surface to surface, for the innermost medium decides. Light that goes past a surface which
-/// is but partly there enters nothing, and what goes through it does: both are followed.
-fn through_media(scene: &CompiledScene, media: &Media, ray: Ray, reach: f64) -> Rgb {
-    Way { media: media.clone(), ray, reach, surfaces: MOST_SURFACES, forks: MOST_FORKS }.left(scene)
+/// What media leave of light, and how radiance changes between them: goes from surface to surface, for the innermost medium
+/// decides. Light that goes past a surface which is but partly there enters nothing, and what goes through it does: both are
+/// followed. If asked for, it is also what surfaces let pass.
+fn through_media(scene: &CompiledScene, media: &Media, ray: Ray, reach: f64, with_surfaces: bool) -> Rgb {
+    Way { media: media.clone(), ray, reach, with_surfaces, surfaces: MOST_SURFACES, forks: MOST_FORKS }.left(scene)
 }
 
 /// Light is divided no more often than this on one way, so that time has a bound; from there on all of it enters.
@@ -98,13 +105,15 @@ struct Way {
     media: Media,
     ray: Ray,
     reach: f64,
+    /// What surfaces let pass is counted, too.
+    with_surfaces: bool,
     /// No more than so many surfaces are looked at.
     surfaces: u32,
     forks: u32,
 }
 
 impl Way {
-    /// What is left at its end of light at its beginning, as if all of it passed all surfaces.
+    /// What is left at its end of light at its beginning.
     fn left(mut self, scene: &CompiledScene) -> Rgb {
         let mut left = Rgb::WHITE;
         while self.surfaces > 0 {
@@ -112,6 +121,12 @@ impl Way {
             let Some(hit) = scene.world.closest_hit(&self.ray, self.reach, CLEAR, None) else { break };
             left *= self.media.transmittance(scene, hit.crossing.t);
             let surface = scene.world.surface(&self.ray, &hit);
+            if self.with_surfaces {
+                left *= passed(scene, &self.ray, &hit, &surface, self.media.ior(scene));
+                if left.is_black() {
+                    return left;
+                }
+            }
             let side = self.ray.direction.dot(surface.normal);
             let inside = match scene.objects[hit.primitive as usize].looks.is_medium {
                 true if side < 0.0 => self.part_entering(scene, &hit, &surface),

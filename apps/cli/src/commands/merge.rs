@@ -46,15 +46,19 @@ pub(crate) struct Arguments {
 
 /// Merges.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
-    let paths = &arguments.films;
+    let given = &arguments.films;
     let to_film = target::format_or_film(&arguments.output)?.is_none();
-    if let Some(film) = paths.iter().find(|film| target::same_place(film, &arguments.output)) {
+    if let Some(film) = given.iter().find(|film| target::same_place(film, &arguments.output)) {
         let name = film.display();
         return Err(Failure::usage(format!(
             "-o: {name} is one of the films, and is not written over; name another file"
         )));
     }
-    let mut outlines = paths.iter().map(|path| outline(path)).collect::<Result<Vec<_>, _>>()?;
+    let mut films = given.iter().map(|path| Ok((path.clone(), outline(path)?))).collect::<Result<Vec<_>, Failure>>()?;
+    // The first one lends its settings to the picture: which that is must not depend on the order in which they are named.
+    films.sort_by(|(_, a), (_, b)| (&a.origin.words, &a.origin.folder).cmp(&(&b.origin.words, &b.origin.folder)));
+    let (paths, mut outlines): (Vec<PathBuf>, Vec<CheckpointOutline>) = films.into_iter().unzip();
+    let paths = &paths;
     let Some(CheckpointOutline { origin, scene, .. }) = outlines.first().cloned() else {
         return Err(Failure::usage("there is no film to merge"));
     };

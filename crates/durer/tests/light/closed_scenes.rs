@@ -82,6 +82,17 @@ fn a_glowing_ball_by_samples_that_are_split() {
     assert!(halves < 0.6 * whole && parts < 0.3 * whole, "{whole} {halves} {parts}");
 }
 
+/// No sample brighter than that, and none the brighter for being split.
+#[test]
+fn a_clamp_holds_as_much_of_samples_that_are_split() {
+    let of = |split: u32| {
+        let render = format!("integrator: {{path: {{max_depth: 1000, clamp: 0.1, split: {split}}}}}, samples: 64");
+        mean_and_spread(&film(&in_a_ball(16, &render, "matte: {color: 0.8, emission: 1}")).develop()).0
+    };
+    let [whole, parts] = [1, 4].map(of);
+    assert!(whole < 4.0 && (parts / whole - 1.0).abs() < 0.01, "{whole} {parts}");
+}
+
 /// A time ends within a pass, and noise where there is little: they are not the same as taking all samples.
 #[test]
 fn samples_end_where_they_should() {

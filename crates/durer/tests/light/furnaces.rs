@@ -33,6 +33,20 @@ fn half_of_a_ball_of_glass() {
     }
 }
 
+/// What is behind a hole is met in air, whether it is aimed at from inside the glass or found by chance; and by samples that are
+/// split, too.
+#[test]
+fn half_of_a_ball_of_rough_glass_under_a_bell() {
+    let scene = "background: 1\nlights: []\n\
+                 camera: {position: [0.4, 0.2, 5], look_at: [0.4, 0.2, 0]}\n\
+                 objects:\n  - sphere: {material: {glass: {opacity: 0.5, roughness: 0.6}}}\n  \
+                 - sphere: {radius: 2, material: {glass: {thin: true, ior: 3}}}\n";
+    for split in [1, 3] {
+        let (found, error) = pixel(&format!("{{path: {{max_depth: 1000, split: {split}}}}}"), 32_768, scene);
+        assert!((found.g - 1.0).abs() < 0.004 + 3.0 * error as f32, "split {split}: {found:?} ± {error}");
+    }
+}
+
 /// Rough balls that lose no light do not make any, either, however often it goes through or to and fro inside: summed up over
 /// the whole ball, they are as bright as the sky.
 #[test]

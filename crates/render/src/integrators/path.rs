@@ -67,6 +67,7 @@ impl Integrator for PathTracer {
             scene,
             sampler: *sampler,
             is_split: self.split == 1,
+            share: 1.0,
             media,
             state,
             sum: Rgb::BLACK,
@@ -84,6 +85,8 @@ struct Path<'a, O> {
     sampler: Sampler,
     /// True if it is one of several, or to remain one.
     is_split: bool,
+    /// What it counts among those.
+    share: f32,
     /// Around the origin of its last segment.
     media: Media,
     state: State,
@@ -113,7 +116,7 @@ struct State {
 #[derive(Clone, Copy)]
 struct Aimed {
     receiver: Receiver,
-    /// Density of the direction, by the surface.
+    /// Density of the direction, by the surface; of several, the sum.
     pdf: f64,
 }
 
@@ -196,20 +199,19 @@ impl<O: Observer> Path<'_, O> {
         }
         let receiver =
             Receiver { point: shading.origin_back(), normal: shading.normal(), passes: bsdf.spreads_through() };
+        let ways = if self.is_split || bsdf.is_specular() { 1 } else { self.tracer.split };
         if !bsdf.is_specular() {
-            self.aim(shading, (&frame, out), &bsdf, &receiver);
+            self.aim(shading, (&frame, out), &bsdf, &receiver, ways);
         }
-        if self.is_split || bsdf.is_specular() {
-            return self.turn(shading, (&frame, out), (&bsdf, indices), receiver);
+        if ways == 1 {
+            return self.turn(shading, (&frame, out), (&bsdf, indices), receiver, ways);
         }
-        self.is_split = true;
+        (self.is_split, self.share) = (true, 1.0 / ways as f32);
         let (sampler, state, media) = (self.sampler, self.state, self.media.clone());
-        let ways = self.tracer.split;
-        let share = 1.0 / ways as f32;
         for number in 0..ways {
             (self.sampler, self.media) = (sampler.split(number, ways), media.clone());
-            self.state = State { weight: state.weight * share, scale: state.scale * share, ..state };
-            if self.turn(shading, (&frame, out), (&bsdf, indices), receiver) {
+            self.state = State { weight: state.weight * self.share, ..state };
+            if self.turn(shading, (&frame, out), (&bsdf, indices), receiver, ways) {
                 self.state.met += 1;
                 self.follow(Known::Nothing);
             }
@@ -217,7 +219,7 @@ impl<O: Observer> Path<'_, O> {
         false
     }
 
-    /// The next segment from a surface, in a direction that it likes.
+    /// The next segment from a surface, in a direction that it likes; one of so many.
     #[inline]
     fn turn(
         &mut self,
@@ -225,6 +227,7 @@ impl<O: Observer> Path<'_, O> {
         (frame, out): (&Frame, DVec3),
         (bsdf, indices): (&Bsdf, Indices),
         receiver: Receiver,
+        ways: u32,
     ) -> bool {
         let step = self.step();
         let lobe = if bsdf.has_one_lobe() { 0.0 } else { self.sampler.one(step, Purpose::Lobe) };
@@ -254,7 +257,7 @@ impl<O: Observer> Path<'_, O> {
                 if shading.is_on_far_side(direction) != passes {
                     return false;
                 }
-                self.state.aimed = Some(Aimed { receiver, pdf });
+                self.state.aimed = Some(Aimed { receiver, pdf: pdf * f64::from(ways) });
             }
             How::Only => self.state.aimed = None,
         }
@@ -307,8 +310,15 @@ impl<O: Observer> Path<'_, O> {
         (!is_none).then_some(Indices { before, behind: Some(behind) })
     }
 
-    /// Looks for light by aiming at an emitter.
-    fn aim(&mut self, shading: &Shading<'_>, (frame, out): (&Frame, DVec3), bsdf: &Bsdf, receiver: &Receiver) {
+    /// Looks for light by aiming at an emitter, where so many ways go on.
+    fn aim(
+        &mut self,
+        shading: &Shading<'_>,
+        (frame, out): (&Frame, DVec3),
+        bsdf: &Bsdf,
+        receiver: &Receiver,
+        ways: u32,
+    ) {
         let (scene, step) = (self.scene, self.step());
         let choice = if scene.emitters.is_one() { 0.0 } else { self.sampler.one(step, Purpose::Light) };
         let at = self.sampler.two(step, Purpose::LightPoint);
@@ -339,6 +349,7 @@ impl<O: Observer> Path<'_, O> {
             self.observer.light(&LightSeen { index, distance, cosine: toward.z, visibility: visible });
         }
         if !visible.is_black() {
+            let pdf = pdf * f64::from(ways);
             let part = if light.is_point { 1.0 } else { power_heuristic(light.pdf, pdf) };
             let by_aiming = if light.is_point { f64::INFINITY } else { light.pdf };
             self.observer.weighing(&Weighing { by_surface: pdf, by_aiming, part });
@@ -382,7 +393,7 @@ impl<O: Observer> Path<'_, O> {
 
     /// The chance of a path of this weight to go on.
     fn survival(&self) -> f32 {
-        let weight = self.state.weight.max_component() / self.state.scale;
+        let weight = self.state.weight.max_component() / (self.state.scale * self.share);
         match self.state.depth {
             depth if depth < FIRST_ROULETTE && weight > 0.0 => 1.0,
             _ if weight >= MOST_LIKELY => MOST_LIKELY,
@@ -420,7 +431,7 @@ impl<O: Observer> Path<'_, O> {
     fn add(&mut self, source: Source, light: Rgb) {
         let mut amount = self.state.weight * light;
         if let (Some(most), false) = (self.tracer.clamp, source.is_direct(self.state.depth)) {
-            let largest = amount.max_component();
+            let (largest, most) = (amount.max_component(), most * self.share);
             if largest > most {
                 amount = amount * (most / largest);
             }
@@ -435,7 +446,8 @@ impl<O: Observer> Path<'_, O> {
     }
 }
 
-/// The part of light that the first of two ways counts, if they find it with these densities. Veach 1997, eq. 9.13.
+/// The part of light that the first of two ways counts, if they find it with these densities, each times the number of tries.
+/// Veach 1997, eq. 9.13.
 fn power_heuristic(first: f64, second: f64) -> f64 {
     if first.is_infinite() {
         return 1.0;

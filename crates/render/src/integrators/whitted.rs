@@ -190,7 +190,7 @@ impl<O: Observer> Path<'_, O> {
         if material.reflection.is_black() && !material.is_clear() {
             return;
         }
-        let [reflection, transparency] = material.split(shading.color);
+        let [reflection, transparency] = material.parts_at(shading.color);
         let behind = weight * transparency;
         let boundary = self.boundary(shading);
         // What cannot get through comes from the mirrored direction, like what a mirror adds: one ray serves both.

@@ -1,15 +1,13 @@
 //! What is worth saying of a scene that can be rendered: what will not look as it was meant.
 
 use super::Step;
+use super::bounds::BRIGHTEST;
 use super::values::Checker;
 use crate::{
     Background, Channels, Classic, Encoding, Import, Instances, Integrator, Material, MaterialId, MaterialKind, Object,
     ObjectKind, Paint, Pattern, Relief, Shape, TextureId,
 };
 use durer_imaging::{Bitmap, Texels};
-
-/// What renderers take brighter pixels for.
-const BRIGHTEST: f32 = 1e6;
 
 pub(super) fn remark(c: &mut Checker<'_>) {
     background(c);
@@ -28,9 +26,12 @@ fn background(c: &mut Checker<'_>) {
         if map.strength == 0.0 || is_black(&image.bitmap) {
             let at = if map.strength == 0.0 { "strength" } else { "image" };
             c.field(at, |c| c.problem_with_help("this environment is black, and gives no light", "is that meant?"));
-        } else if has_negative(&image.bitmap) {
+            return;
+        }
+        if has_negative(&image.bitmap) {
             c.field("image", |c| c.problem("this image has negative numbers, which are taken for 0"));
-        } else if has_above(&image.bitmap, BRIGHTEST) {
+        }
+        if has_above(&image.bitmap, BRIGHTEST) {
             let help = "divide the image by some number, and give that as `strength`";
             let message = "this image has numbers above a million, which are taken for a million";
             c.field("image", |c| c.problem_with_help(message, help));

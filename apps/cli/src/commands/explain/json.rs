@@ -45,7 +45,7 @@ impl Explained<'_> {
             "holes": ray.holes.iter().map(|hole| self.hole_json(hole)).collect::<Vec<_>>(),
             "hit": ray.hit.as_ref().map(|hit| self.hit_json(hit)),
             "lights": ray.lights.iter().map(|light| self.light_json(light)).collect::<Vec<_>>(),
-            "scattering": ray.scattering.as_ref().map(scattering),
+            "scattering": ray.scattering.iter().map(scattering).collect::<Vec<_>>(),
             "contributions": ray.contributions.iter().map(contribution).collect::<Vec<_>>(),
             "not_traced": not_traced.collect::<Vec<_>>(),
             "children": ray.children.iter().map(|child| self.ray_json(child)).collect::<Vec<_>>(),

@@ -109,7 +109,7 @@ impl Explained<'_> {
                 page.amount(&with_weighing(&source, contribution), contribution.amount);
             }
         }
-        if let Some(Scattering { direction, pdf, weight, survival }) = &ray.scattering {
+        for Scattering { direction, pdf, weight, survival } in &ray.scattering {
             let density = pdf.map_or_else(|| "the only direction".to_owned(), |pdf| format!("density {}", short(pdf)));
             let chance = match survival {
                 1.0 => String::new(),
