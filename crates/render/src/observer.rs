@@ -68,7 +68,8 @@ pub enum NotTraced {
 /// found by one of them counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weighing {
-    /// Density of the direction by the surface, per solid angle; infinite if it is the only one.
+    /// Density of the direction by the surface, per solid angle, times the number of ways into which the sample is split there;
+    /// infinite if it is the only one.
     pub by_surface: f64,
     /// Density of the direction by aiming at emitters, per solid angle; infinite for lights that are points.
     pub by_aiming: f64,

@@ -66,7 +66,7 @@ pub(super) fn warn_of_unused(root: &Node, integrator: &Integrator, complaints: &
     let word = integrator.word();
     let unused: &[(&str, &str)] = match integrator {
         Integrator::Path { .. } => &[
-            ("max_depth", "that of `path` is its own: `integrator: {path: {max_depth: 16}}`"),
+            ("max_depth", "`path` has a `max_depth` of its own: `integrator: {path: {max_depth: 16}}`"),
             ("min_weight", "`path` ends paths by chance, and loses no light"),
             ("light_samples", "`path` sends one shadow ray from each surface: more `samples` make shadows smoother"),
             ("antialias", "`path` spreads its `samples` over each pixel"),
