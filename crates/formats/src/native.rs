@@ -82,10 +82,6 @@ fn load_tree(
     let mut complaints = std::mem::take(&mut decoder.complaints);
     match scene.check() {
         Ok(scene) => {
-            if complaints.is_empty() && scene.scene().objects.is_empty() {
-                let span = root.get("objects").map_or(Span::default(), |(key, _)| key.span);
-                complaints.push(Complaint::warning(span, "nothing to see: the scene has no objects"));
-            }
             let place = Place { steps: ["render", "integrator"].map(Step::Field).into() };
             let chosen_by = overlay.name_of(&place, &render);
             settings::warn_of_unused(&root, &render.integrator, chosen_by.as_deref(), &mut complaints);

@@ -215,6 +215,8 @@ fn options_and_files_each_get_their_own_messages() {
     assert!(told.contains("both.yaml:1:53") && told.contains("clamp must be"), "{told}");
     assert!(!told.contains("--max-depth") && !told.contains("--integrator"), "{told}");
     workshop.fails("render both.yaml --integrator path:2,-3", 3, "--integrator: clamp must be above 0");
+    workshop.put("model.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    workshop.fails("render model.obj --samples 0", 2, "--samples: samples must be from 1");
 }
 
 /// A picture says which scene it shows, whatever it was rendered with.

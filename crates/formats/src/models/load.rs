@@ -5,6 +5,7 @@ use crate::diagnostics::Complaint;
 use crate::native::tree::Span;
 use crate::sources::Remembering;
 use crate::{Assets, Diagnostics, Limits, Loaded, Overlay};
+use durer_scene::{Problem, Step};
 
 /// Reads a model, which messages call `name`, and makes a scene that shows it; `assets` are the files beside it.
 ///
@@ -24,19 +25,24 @@ pub(crate) fn load(
     let model = read(file, bytes, &assets, limits).map_err(|error| diagnostics_of(error, bytes, name, limits))?;
     let warning = |message: &str| Complaint::warning(Span::default(), format!("in {file}: {message}"));
     let mut warnings: Vec<Complaint> = model.warnings.iter().map(|message| warning(message)).collect();
+    if model.scene.primitives().total() == 0 {
+        warnings.push(warning("there is nothing to see in this model"));
+    }
     let mut scene = stage(model.scene, file);
     let written = (scene.picture, scene.render);
     overlay.lay_over(&mut scene.picture, &mut scene.render);
     let render = scene.render;
     match scene.check() {
         Ok(scene) => {
-            let remarks = scene.remarks().into_iter();
+            // Which nodes of a model are empty is its own affair.
+            let is_of_objects = |remark: &Problem| remark.place.steps.first() == Some(&Step::Field("objects"));
+            let remarks = scene.remarks().into_iter().filter(|remark| !is_of_objects(remark));
             warnings.extend(remarks.map(|remark| warning(&remark.message).maybe_help(remark.help)));
             let warnings = Diagnostics::new(warnings, name, "", limits.max_diagnostics);
             Ok(Loaded { scene, warnings, sources: assets.into_sources(), written })
         }
         Err(problems) => {
-            let complaint = |problem: durer_scene::Problem| {
+            let complaint = |problem: Problem| {
                 if let Some(name) = overlay.name_of(&problem.place, &render) {
                     return Complaint::of_overlay(name, problem);
                 }

@@ -1,8 +1,8 @@
 //! What is worth saying of a scene that can be rendered: what will not look as it was meant.
 
-use super::Step;
 use super::bounds::BRIGHTEST;
 use super::values::Checker;
+use super::{Step, emptiness};
 use crate::{
     Background, Channels, Classic, Encoding, Import, Instances, Integrator, Material, MaterialId, MaterialKind, Object,
     ObjectKind, Paint, Pattern, Relief, Shape, TextureId,
@@ -16,6 +16,7 @@ pub(super) fn remark(c: &mut Checker<'_>) {
     }
     let objects = &c.scene.objects;
     c.field("objects", |c| planes(c, objects, None));
+    emptiness::remark(c);
     darkness(c);
 }
 

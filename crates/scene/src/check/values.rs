@@ -121,7 +121,8 @@ impl<'s> Checker<'s> {
             return false;
         }
         if direction == DVec3::ZERO {
-            return self.problem(format!("{name} must not be zero: it has no direction"));
+            let help = "any length other than 0 will do, such as `[0, 1, 0]`";
+            return self.problem_with_help(format!("{name} must not be zero: it has no direction"), help);
         }
         direction.length() >= SMALLEST || self.problem(format!("{name} must be at least {SMALLEST:e} long"))
     }
