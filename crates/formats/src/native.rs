@@ -82,6 +82,7 @@ fn load_tree(
     let mut complaints = std::mem::take(&mut decoder.complaints);
     match scene.check() {
         Ok(scene) => {
+            decoder.refuse_those_beyond(&mut complaints);
             let place = Place { steps: ["render", "integrator"].map(Step::Field).into() };
             let chosen_by = overlay.name_of(&place, &render);
             settings::warn_of_unused(&root, &render.integrator, chosen_by.as_deref(), &mut complaints);
@@ -106,8 +107,10 @@ fn load_tree(
                 if decoder.doubtful.iter().any(doubtful) {
                     continue;
                 }
-                complaints.push(Complaint::error(span, problem.message).maybe_help(problem.help));
+                let message = decoder.as_written(problem.message, span);
+                complaints.push(Complaint::error(span, message).maybe_help(problem.help));
             }
+            decoder.refuse_those_beyond(&mut complaints);
             (None, complaints)
         }
     }
