@@ -188,7 +188,8 @@ impl<'n, 'd, 'a> Fields<'n, 'd, 'a> {
             Some((NodeKind::Mapping(entries), _)) => entries,
             Some((_, value)) => {
                 let glued = value.text().and_then(super::hints::glued).map(|(_, help)| help);
-                let advice = glued.or_else(|| Some(format!("write `{word}: {{…}}`")));
+                let named = || value.text().and_then(|text| super::hints::file_alone(word, text));
+                let advice = glued.or_else(named).or_else(|| Some(format!("write `{word}: {{…}}`")));
                 return cx.expected_noun(value, &format!("the fields of `{word}`"), advice);
             }
         };

@@ -4,7 +4,7 @@ use super::decode::{Decoder, Fields};
 use super::record::{
     Choice, FieldAbout, KindAbout, Record, choice, choice_value, encode_choice, fields, record, record_value,
 };
-use super::tree::{Node, NodeKind};
+use super::tree::{Node, NodeKind, shorten};
 use super::value::{Value, number_text};
 use super::write::{FieldsOut, Out, Writer};
 use crate::diagnostics::Complaint;
@@ -291,6 +291,9 @@ impl Value for Background {
             NodeKind::Mapping(_) => super::record::decode_record("background", node, cx)
                 .map(|Sky { bottom, top }| Background::Gradient { bottom, top }),
             NodeKind::Scalar { .. } if node.is_null() => cx.expected::<Self>(node),
+            NodeKind::Scalar { text, .. } if super::paint::image_file(text).is_some() => {
+                cx.expected_noun(node, &Self::noun(), Some(format!("write `background: {{image: {}}}`", shorten(text))))
+            }
             NodeKind::Scalar { .. } | NodeKind::Sequence(_) => Rgb::decode(node, cx).map(Background::Color),
         }
     }

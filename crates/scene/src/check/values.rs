@@ -160,7 +160,8 @@ impl<'s> Checker<'s> {
             return self.problem(message);
         }
         let help = "components go from 0 to 1";
-        if color.max_component() <= 255.0 && color.to_array().iter().all(|x| x.fract() == 0.0) {
+        // Bytes that are all so small are more likely meant as something else.
+        if (16.0..=255.0).contains(&color.max_component()) && color.to_array().iter().all(|x| x.fract() == 0.0) {
             let [r, g, b] = color.to_array().map(|x| x as u8);
             return self.problem_with_help(message, format!("{help}; for 0 to 255 write \"#{r:02x}{g:02x}{b:02x}\""));
         }
