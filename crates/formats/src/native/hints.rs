@@ -5,7 +5,7 @@ use super::suggest;
 use super::surfaces::{Common, Physical};
 use super::tree::{Entry, Node, shorten};
 use crate::diagnostics::Complaint;
-use durer_scene::Classic;
+use durer_scene::{Classic, Pattern};
 
 const STEPS: [&str; 4] = ["translate", "rotate", "scale", "matrix"];
 
@@ -106,6 +106,10 @@ pub(crate) fn unknown_field(title: &str, name: &str, value: &Node, known: &[&str
     }
     if name == "texture" && known.contains(&"color") {
         return "a texture is given as `color`: `color: {checker: {…}}`, or the name of a texture".to_owned();
+    }
+    let holder = ["color", "texture"].into_iter().find(|field| known.contains(field));
+    if let (Some(field), true) = (holder, Pattern::WORDS.iter().any(|(word, _)| *word == name)) {
+        return format!("a texture is given as `{field}`: `{field}: {{{name}: {{…}}}}`");
     }
     if matches!(name, "color" | "colour" | "texture") && known.contains(&"material") {
         return "it is part of the material: `material: {color: …}`".to_owned();
