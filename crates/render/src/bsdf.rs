@@ -75,6 +75,9 @@ pub(crate) enum How {
     Straight,
 }
 
+/// Microfacets of this width spread light [broadly](Bsdf::is_broad): what one direction finds is no rare thing for another.
+const BROAD: f64 = 0.2;
+
 /// A surface seen so nearly edge-on scatters nothing: numbers end there.
 const EDGE_ON: f64 = 1e-7;
 
@@ -90,6 +93,18 @@ impl Bsdf {
             Bsdf::Plastic(plastic) => plastic.is_specular(),
             Bsdf::Classic(classic) => classic.is_specular(),
             Bsdf::Principled(principled) => principled.is_specular(),
+        }
+    }
+
+    /// True if it is much the same from wherever it is seen: light that was found for one direction serves another.
+    pub(crate) fn is_broad(&self) -> bool {
+        match self {
+            Bsdf::Diffuse(_) | Bsdf::OrenNayar(_) => true,
+            Bsdf::Mirror(_) | Bsdf::Clear(_) | Bsdf::Sheet(_) | Bsdf::Dielectric(_) => false,
+            Bsdf::Conductor(conductor) => conductor.is_broad(),
+            Bsdf::Plastic(plastic) => plastic.is_broad(),
+            Bsdf::Classic(classic) => classic.is_broad(),
+            Bsdf::Principled(principled) => principled.is_broad(),
         }
     }
 

@@ -170,7 +170,7 @@ pub fn explain(scene: &CompiledScene, x: u32, y: u32) -> Option<PixelExplanation
     }
     match scene.settings.integrator {
         Integrator::Path { max_depth, clamp, split } => {
-            return explain_samples(scene, &PathTracer { max_depth, clamp, split }, (x, y));
+            return explain_samples(scene, &PathTracer { max_depth, clamp, split, reuse: 1 }, (x, y));
         }
         Integrator::AmbientOcclusion { distance } => {
             let distance = distance.unwrap_or(f64::INFINITY);

@@ -22,6 +22,11 @@ use durer_math::Rgb;
 
 /// Estimates the light arriving along one ray. Owns no loop over pixels, no thread and no film.
 pub(crate) trait Integrator: Sync {
+    /// How many neighboring pixels it looks at together: 1, 4, 16, 64 …
+    fn together(&self) -> u32 {
+        1
+    }
+
     fn radiance<O: Observer>(
         &self,
         scene: &CompiledScene,
@@ -30,4 +35,23 @@ pub(crate) trait Integrator: Sync {
         sampler: &Sampler,
         observer: &mut O,
     ) -> Rgb;
+
+    /// The light of samples that are taken together: any ones of a pixel, or those with the same number of all pixels of a
+    /// block.
+    fn radiances<O: Observer>(&self, scene: &CompiledScene, samples: &mut [&mut Together<'_, O>]) {
+        for sample in samples {
+            let Together { ray, known, sampler, observer, light } = &mut **sample;
+            *light = self.radiance(scene, ray, *known, sampler, observer);
+        }
+    }
+}
+
+/// One of several samples that are taken together.
+pub(crate) struct Together<'a, O> {
+    pub(crate) ray: Ray,
+    pub(crate) known: Known<'a>,
+    pub(crate) sampler: Sampler,
+    pub(crate) observer: O,
+    /// What is found.
+    pub(crate) light: Rgb,
 }

@@ -15,6 +15,8 @@ pub enum RayKind {
     Reflected,
     /// Through a clear surface, straight or bent.
     Transmitted,
+    /// To a point that a path has met, of which several pixels make use.
+    Connected,
 }
 
 /// Where a contribution to a pixel comes from.
@@ -34,6 +36,8 @@ pub enum Source {
     Specular(usize),
     /// An emitter that was aimed at: the light with this index, or a shape or the background.
     Light(Option<usize>),
+    /// Light given back at a point of which several pixels make use, by whichever way it came there.
+    Reused,
     /// What an integrator that computes no light shows of a surface: its normal, how far away it is …
     Shown,
 }
@@ -50,6 +54,7 @@ impl Source {
             | Source::Specular(_)
             | Source::Light(_)
             | Source::Shown => 1,
+            Source::Reused => 0,
         };
         depth <= deepest
     }
@@ -173,6 +178,7 @@ impl Observer for RayCounts {
             RayKind::Eye => self.eye += 1,
             RayKind::Reflected => self.reflected += 1,
             RayKind::Transmitted => self.transmitted += 1,
+            RayKind::Connected => self.shadow += 1,
         }
     }
 

@@ -15,7 +15,8 @@ use crate::compile::CompiledScene;
 use crate::film::{Film, PixelSums, Region, SampleRange, SampledTile, TILE};
 use crate::filter_sampling::FilterSampling;
 use crate::holes::Known;
-use crate::integrators::Integrator;
+use crate::integrators::{Integrator, Together};
+use crate::observer::{Observer, RayCounts};
 use crate::sampler::{Purpose, Sampler};
 use crate::schedule::{Progress, in_tiles};
 use around::Around;
@@ -188,6 +189,9 @@ impl Clock {
     }
 }
 
+/// The most pixels that are looked at together.
+const MOST_TOGETHER: usize = 64;
+
 /// How samples are taken.
 struct Sampling<'a, I> {
     scene: &'a CompiledScene,
@@ -209,45 +213,102 @@ pub(crate) struct Begun {
 
 impl<I: Integrator> Sampling<'_, I> {
     fn tile(&self, region: Region, pass: &Pass) -> SampledTile {
-        let mut tile =
-            SampledTile { region, pixels: Vec::with_capacity(region.pixels() as usize), account: Default::default() };
-        for (x, y) in region.pixel_places() {
-            let pixel = pass.region.index_of(x, y);
-            let mut sums = PixelSums::default();
-            let mut samples = pass.from[pixel]..pass.to[pixel];
-            while !samples.is_empty() {
-                let some: ArrayVec<u32, LANES> = samples.by_ref().take(LANES).collect();
-                self.take((x, y), &some, &mut sums, &mut tile);
-            }
-            tile.pixels.push(sums);
+        let pixels = vec![PixelSums::default(); region.pixels() as usize];
+        let mut tile = SampledTile { region, pixels, account: Default::default() };
+        match self.integrator.together() {
+            0 | 1 => self.one_by_one(&mut tile, pass),
+            together => self.in_blocks(&mut tile, pass, together.isqrt()),
         }
         tile
     }
 
-    /// Some samples of one pixel: their first rays go nearly the same way.
-    fn take(&self, pixel: (u32, u32), samples: &[u32], sums: &mut PixelSums, tile: &mut SampledTile) {
-        let scene = self.scene;
-        let begun: ArrayVec<Begun, LANES> = samples.iter().map(|&number| self.begin(pixel, number)).collect();
-        let trace = |begun: &Begun, known: Known<'_>, sums: &mut PixelSums, tile: &mut SampledTile| {
-            let Begun { sampler, at, is_negative, ray } = begun;
-            let rays = &mut tile.account.rays;
-            let (color, direct) = if self.direct {
-                let mut apart = Direct::new(rays);
-                (self.integrator.radiance(scene, ray, known, sampler, &mut apart), apart.light())
-            } else {
-                (self.integrator.radiance(scene, ray, known, sampler, rays), Rgb::BLACK)
-            };
-            if sums.add(color, direct, *is_negative).is_err() {
-                tile.account.bad_sample(*at);
+    /// Some samples of one pixel at a time: their first rays go nearly the same way.
+    fn one_by_one(&self, tile: &mut SampledTile, pass: &Pass) {
+        for pixel in tile.region.pixel_places() {
+            let at = pass.region.index_of(pixel.0, pixel.1);
+            let mut numbers = pass.from[at]..pass.to[at];
+            while !numbers.is_empty() {
+                let some: ArrayVec<_, LANES> = numbers.by_ref().take(LANES).map(|number| (pixel, number)).collect();
+                self.take::<LANES>(&some, |_| true, tile);
             }
+        }
+    }
+
+    /// The samples of the same number of a block of pixels at a time, of this edge. Those of pixels that want no more, or are
+    /// outside of what is rendered, are taken for the others.
+    fn in_blocks(&self, tile: &mut SampledTile, pass: &Pass, edge: u32) {
+        let (width, height) = self.scene.picture_size();
+        let wants = |(x, y): (u32, u32), number: u32| {
+            let at = pass.region.index_of(x, y);
+            (pass.from[at]..pass.to[at]).contains(&number)
         };
-        match (&scene.eye_vantage, &begun[..]) {
-            (Some(vantage), _) => begun.iter().for_each(|begun| trace(begun, Known::Vantage(vantage), sums, tile)),
-            (None, [one]) => trace(one, Known::Nothing, sums, tile),
-            (None, _) => {
-                let rays: ArrayVec<Ray, LANES> = begun.iter().map(|begun| begun.ray).collect();
-                let hits = scene.world.closest_hits(&Packet::new(&rays), f64::INFINITY, u32::MAX);
-                begun.iter().zip(hits).for_each(|(begun, hit)| trace(begun, Known::Hit(hit), sums, tile));
+        let region = tile.region;
+        for part in region.cells(edge) {
+            let (x, y) = (part.x / edge * edge, part.y / edge * edge);
+            let block = Region { x, y, width: edge.min(width - x), height: edge.min(height - y) };
+            let ats = || part.pixel_places().map(|(x, y)| pass.region.index_of(x, y));
+            let first = ats().map(|at| pass.from[at]).min().unwrap_or(0);
+            let end = ats().map(|at| pass.to[at]).max().unwrap_or(0);
+            for number in first..end {
+                if part.pixel_places().any(|pixel| wants(pixel, number)) {
+                    let samples: ArrayVec<_, MOST_TOGETHER> =
+                        block.pixel_places().map(|pixel| (pixel, number)).collect();
+                    self.take::<MOST_TOGETHER>(&samples, |pixel| region.contains(pixel) && wants(pixel, number), tile);
+                }
+            }
+        }
+    }
+
+    /// Takes samples together, of these pixels and with these numbers, and adds those that are wanted.
+    fn take<const N: usize>(
+        &self,
+        samples: &[((u32, u32), u32)],
+        is_wanted: impl Fn((u32, u32)) -> bool,
+        tile: &mut SampledTile,
+    ) {
+        if self.direct {
+            self.take_with::<_, N>(samples, is_wanted, tile, Direct::default, |direct| (direct.rays, direct.light));
+        } else {
+            self.take_with::<_, N>(samples, is_wanted, tile, RayCounts::default, |rays| (*rays, Rgb::BLACK));
+        }
+    }
+
+    fn take_with<O: Observer, const N: usize>(
+        &self,
+        samples: &[((u32, u32), u32)],
+        is_wanted: impl Fn((u32, u32)) -> bool,
+        tile: &mut SampledTile,
+        observer: impl Fn() -> O,
+        seen: impl Fn(&O) -> (RayCounts, Rgb),
+    ) {
+        let begun: ArrayVec<Begun, N> = samples.iter().map(|&(pixel, number)| self.begin(pixel, number)).collect();
+        let mut together: ArrayVec<Together<'_, O>, N> = ArrayVec::new();
+        for begun in begun.chunks(LANES) {
+            let hits = match (&self.scene.eye_vantage, begun) {
+                (Some(_), _) | (None, [_]) => None,
+                (None, _) => {
+                    let rays: ArrayVec<Ray, LANES> = begun.iter().map(|begun| begun.ray).collect();
+                    Some(self.scene.world.closest_hits(&Packet::new(&rays), f64::INFINITY, u32::MAX))
+                }
+            };
+            together.extend(begun.iter().enumerate().map(|(lane, &Begun { ray, sampler, .. })| {
+                let known = match (hits, &self.scene.eye_vantage) {
+                    (Some(hits), _) => Known::Hit(hits[lane]),
+                    (None, Some(vantage)) => Known::Vantage(vantage),
+                    (None, None) => Known::Nothing,
+                };
+                Together { ray, known, sampler, observer: observer(), light: Rgb::BLACK }
+            }));
+        }
+        self.integrator.radiances(self.scene, &mut together.iter_mut().collect::<ArrayVec<_, N>>());
+        for ((taken, begun), &(pixel, _)) in together.iter().zip(&begun).zip(samples) {
+            let (rays, direct) = seen(&taken.observer);
+            tile.account.rays.add(&rays);
+            if is_wanted(pixel) {
+                let at = tile.region.index_of(pixel.0, pixel.1);
+                if tile.pixels[at].add(taken.light, direct, begun.is_negative).is_err() {
+                    tile.account.bad_sample(begun.at);
+                }
             }
         }
     }

@@ -169,7 +169,18 @@ fn samples_of(scene: &CompiledScene, options: &RenderOptions) -> Result<Option<S
 fn take_samples(scene: &CompiledScene, goal: Goal, film: &mut Film, progress: &dyn Progress) {
     match scene.settings.integrator {
         Integrator::Path { max_depth, clamp, split } => {
-            take_samples_with(scene, &PathTracer { max_depth, clamp, split }, goal, film, progress);
+            take_samples_with(
+                scene,
+                &PathTracer {
+                    max_depth,
+                    clamp,
+                    split,
+                    reuse: std::env::var("DURER_REUSE").map_or(1, |v| v.parse().unwrap()),
+                },
+                goal,
+                film,
+                progress,
+            );
         }
         Integrator::AmbientOcclusion { distance } => {
             let distance = distance.unwrap_or(f64::INFINITY);

@@ -19,6 +19,7 @@ pub(crate) use textured::{Textured, within_one};
 const FLAT: f64 = 1e-3;
 
 /// A point on a surface, seen from one side.
+#[derive(Clone, Copy)]
 pub(crate) struct Shading<'a> {
     hit: Hit,
     pub(crate) primitive: u32,
@@ -153,6 +154,11 @@ impl<'a> Shading<'a> {
             Some(smooth) => smooth.normal,
             None => self.face,
         }
+    }
+
+    /// The surface's unit normal on the side that the ray came from.
+    pub(crate) fn face(&self) -> DVec3 {
+        self.face
     }
 
     /// The normal of the plane from behind which no light comes to the side that the ray came from.

@@ -67,6 +67,10 @@ impl Classic {
         Classic { diffuse, specular, shininess: parts.shininess, reflection, transparency, through, chances }
     }
 
+    pub(crate) fn is_broad(&self) -> bool {
+        self.chances[0] > 0.0 && self.chances[1] == 0.0
+    }
+
     pub(crate) fn is_specular(&self) -> bool {
         self.chances[0] + self.chances[1] == 0.0
     }

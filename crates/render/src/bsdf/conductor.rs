@@ -4,7 +4,7 @@ use super::fresnel::Reflectance;
 use super::ggx::Ggx;
 use super::tables::REFLECTED;
 use super::warps::{cosine_hemisphere, cosine_pdf};
-use super::{How, Scattered};
+use super::{BROAD, How, Scattered};
 use durer_math::{DVec2, DVec3, Rgb};
 
 /// A metal.
@@ -32,6 +32,10 @@ impl Conductor {
             Rough { ggx, alpha, multiple: multiple(average, REFLECTED.all.average(alpha)) }
         });
         Conductor { reflectance, rough }
+    }
+
+    pub(crate) fn is_broad(&self) -> bool {
+        self.rough.is_some_and(|rough| rough.alpha >= BROAD)
     }
 
     pub(crate) fn is_specular(&self) -> bool {

@@ -5,11 +5,11 @@
 //! what the coat reflects, the base gives (1 - E(o)) (1 - E(i)) / (π (1 - Ē)) · a (1 - F) / (1 - a F). All of white is given
 //! back by a white base, whatever the coat.
 
-use super::Scattered;
 use super::fresnel;
 use super::ggx::Ggx;
 use super::tables::DIELECTRIC;
 use super::warps::{cosine_hemisphere, cosine_pdf};
+use super::{BROAD, Scattered};
 use durer_math::{DVec2, DVec3, Rgb};
 
 /// A coat over a base.
@@ -46,6 +46,10 @@ impl Plastic {
             Some((_, alpha)) => DIELECTRIC.reflected(cos, alpha, self.eta),
             None => fresnel::dielectric(cos, self.eta).reflectance,
         }
+    }
+
+    pub(crate) fn is_broad(&self) -> bool {
+        self.rough.is_none_or(|(_, alpha)| alpha >= BROAD)
     }
 
     pub(crate) fn is_specular(&self) -> bool {

@@ -79,6 +79,11 @@ impl Region {
         self.x.checked_add(self.width).is_some() && self.y.checked_add(self.height).is_some() && self.pixels() > 0
     }
 
+    /// True if this pixel is in it.
+    pub(crate) fn contains(self, (x, y): (u32, u32)) -> bool {
+        (self.x..self.x + self.width).contains(&x) && (self.y..self.y + self.height).contains(&y)
+    }
+
     /// What both have; `None` if that is nothing.
     pub(crate) fn intersection(self, other: Region) -> Option<Region> {
         let (x, y) = (self.x.max(other.x), self.y.max(other.y));

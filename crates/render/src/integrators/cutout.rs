@@ -1,7 +1,7 @@
 //! Pictures of things without what is behind them: where the eye's rays meet nothing, nothing is shown, and how often that is
 //! so is a picture of its own. What is but partly there counts as there, with what is seen through it; only holes do not.
 
-use super::Integrator;
+use super::{Integrator, Together};
 use crate::compile::CompiledScene;
 use crate::holes::{Known, meet};
 use crate::observer::{Observer, RayKind, SurfaceSeen};
@@ -29,6 +29,10 @@ pub(crate) struct Cutout<'i, I> {
 }
 
 impl<I: Integrator> Integrator for Cutout<'_, I> {
+    fn together(&self) -> u32 {
+        self.integrator.together()
+    }
+
     #[inline]
     fn radiance<O: Observer>(
         &self,
@@ -49,6 +53,20 @@ impl<I: Integrator> Integrator for Cutout<'_, I> {
                 Rgb::BLACK
             }
             Shown::Coverage => coverage(scene, ray, known, observer),
+        }
+    }
+
+    fn radiances<O: Observer>(&self, scene: &CompiledScene, samples: &mut [&mut Together<'_, O>]) {
+        // What sees nothing has no part in what the others do together.
+        let (mut to_show, mut alone): (Vec<&mut Together<'_, O>>, Vec<&mut Together<'_, O>>) =
+            samples.iter_mut().map(|sample| &mut **sample).partition(|sample| match self.shown {
+                Shown::Everything => true,
+                Shown::Things => meets_something(scene, &sample.ray, sample.known),
+                Shown::Coverage => false,
+            });
+        self.integrator.radiances(scene, &mut to_show);
+        for Together { ray, known, sampler, observer, light } in alone.iter_mut().map(|sample| &mut **sample) {
+            *light = self.radiance(scene, ray, *known, sampler, observer);
         }
     }
 }

@@ -4,11 +4,14 @@
 //! and by going on in a direction that the surface likes and meeting an emitter there. Each finds some light better than the
 //! other; the power heuristic weighs them (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, §9).
 //! Paths of little weight end by Russian roulette. Where a sample first meets a surface that spreads light, it may be split:
-//! what comes by way of other things is most of the noise, and the way to there is traced once for several tries.
+//! what comes by way of other things is most of the noise, and the way to there is traced once for several tries. And what it
+//! finds there may be [reused](reuse) by the pixels around.
 //!
 //! As with the classic integrator, a sample is one sum of contributions that carry their full weight.
 
-use super::Integrator;
+mod reuse;
+
+use super::{Integrator, Together};
 use crate::bsdf::{Bsdf, How};
 use crate::compile::CompiledScene;
 use crate::emitters::Receiver;
@@ -31,6 +34,8 @@ pub(crate) struct PathTracer {
     pub(crate) clamp: Option<f32>,
     /// How many paths go on from the first surface that spreads light.
     pub(crate) split: u32,
+    /// How many pixels use each of these.
+    pub(crate) reuse: u32,
 }
 
 /// Russian roulette begins with segments of this number.
@@ -43,6 +48,10 @@ const WORTHWHILE: f32 = 0.3;
 const MOST_LIKELY: f32 = 0.99;
 
 impl Integrator for PathTracer {
+    fn together(&self) -> u32 {
+        self.reuse
+    }
+
     fn radiance<O: Observer>(
         &self,
         scene: &CompiledScene,
@@ -51,30 +60,27 @@ impl Integrator for PathTracer {
         sampler: &Sampler,
         observer: &mut O,
     ) -> Rgb {
-        let media = if scene.media_at_eye.is_empty() { Media::default() } else { Media::around(scene, ray) };
-        let state = State {
-            kind: RayKind::Eye,
-            ray: *ray,
-            depth: 1,
-            met: 0,
-            weight: Rgb::WHITE,
-            scale: 1.0,
-            aimed: None,
-            way: 0.0,
-        };
-        let mut path = Path {
-            tracer: self,
-            scene,
-            sampler: *sampler,
-            is_split: self.split == 1,
-            share: 1.0,
-            media,
-            state,
-            sum: Rgb::BLACK,
-            observer,
-        };
-        path.follow(known);
+        let mut path = Path::new(self, (scene, ray), sampler, observer);
+        if self.split > 1 {
+            path.pause = Pause::WhereSpread;
+        }
+        let segments = path.follow(known);
+        if let Some(paused) = path.paused.take() {
+            path.branch(&paused.vertex());
+        }
+        path.end_rays(segments);
         path.sum
+    }
+
+    fn radiances<O: Observer>(&self, scene: &CompiledScene, samples: &mut [&mut Together<'_, O>]) {
+        if self.reuse > 1 {
+            reuse::trace(self, scene, samples);
+            return;
+        }
+        for sample in samples {
+            let Together { ray, known, sampler, observer, light } = &mut **sample;
+            *light = self.radiance(scene, ray, *known, sampler, observer);
+        }
     }
 }
 
@@ -83,15 +89,76 @@ struct Path<'a, O> {
     tracer: &'a PathTracer,
     scene: &'a CompiledScene,
     sampler: Sampler,
-    /// True if it is one of several, or to remain one.
-    is_split: bool,
-    /// What it counts among those.
+    /// Where it is to be stopped …
+    pause: Pause,
+    /// … and where it was.
+    paused: Option<Paused<'a>>,
+    /// What it counts among those that a sample is split into.
     share: f32,
+    /// True while what is added up is not what arrives at the eye.
+    is_apart: bool,
     /// Around the origin of its last segment.
     media: Media,
     state: State,
     sum: Rgb,
     observer: &'a mut O,
+}
+
+/// Where a path is not to go on by itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Pause {
+    Nowhere,
+    /// At the first surface that spreads light, when light was aimed at from there.
+    WhereSpread,
+    /// At the surface that it meets after so many, if it may be [reused](reuse) there, before light is aimed at.
+    AfterSurfaces(u32),
+}
+
+/// Where a path meets a surface.
+#[derive(Clone, Copy)]
+struct Vertex<'v, 'a> {
+    shading: &'v Shading<'a>,
+    frame: &'v Frame,
+    /// Where the path came from, in the frame.
+    out: DVec3,
+    bsdf: &'v Bsdf,
+    indices: Indices,
+    receiver: &'v Receiver,
+}
+
+/// Where a path was paused.
+struct Paused<'a> {
+    shading: Shading<'a>,
+    frame: Frame,
+    out: DVec3,
+    bsdf: Bsdf,
+    indices: Indices,
+    receiver: Receiver,
+}
+
+impl<'a> Paused<'a> {
+    fn vertex(&self) -> Vertex<'_, 'a> {
+        let Paused { shading, frame, out, bsdf, indices, receiver } = self;
+        Vertex { shading, frame, out: *out, bsdf, indices: *indices, receiver }
+    }
+}
+
+impl<'a> Vertex<'_, 'a> {
+    fn paused(&self) -> Paused<'a> {
+        let Vertex { shading, frame, out, bsdf, indices, receiver } = *self;
+        Paused { shading: *shading, frame: *frame, out, bsdf: *bsdf, indices, receiver: *receiver }
+    }
+}
+
+/// Light from an emitter that was aimed at.
+struct Arriving {
+    source: Source,
+    /// In the frame of the surface.
+    toward: DVec3,
+    /// What of it is scattered back to where the path came from, times the cosine.
+    scattered: Rgb,
+    /// Radiance over the density, as far as it counts.
+    light: Rgb,
 }
 
 /// The last segment of a path.
@@ -120,8 +187,42 @@ struct Aimed {
     pdf: f64,
 }
 
-impl<O: Observer> Path<'_, O> {
-    fn follow(&mut self, known: Known<'_>) {
+impl<'a, O: Observer> Path<'a, O> {
+    /// One that begins with a ray of the eye.
+    fn new(
+        tracer: &'a PathTracer,
+        (scene, ray): (&'a CompiledScene, &Ray),
+        sampler: &Sampler,
+        observer: &'a mut O,
+    ) -> Path<'a, O> {
+        let media = if scene.media_at_eye.is_empty() { Media::default() } else { Media::around(scene, ray) };
+        let state = State {
+            kind: RayKind::Eye,
+            ray: *ray,
+            depth: 1,
+            met: 0,
+            weight: Rgb::WHITE,
+            scale: 1.0,
+            aimed: None,
+            way: 0.0,
+        };
+        Path {
+            tracer,
+            scene,
+            sampler: *sampler,
+            pause: Pause::Nowhere,
+            paused: None,
+            share: 1.0,
+            is_apart: false,
+            media,
+            state,
+            sum: Rgb::BLACK,
+            observer,
+        }
+    }
+
+    /// Goes on until it ends or is paused; gives the number of segments, which the observer takes for [open](Path::end_rays).
+    fn follow(&mut self, known: Known<'_>) -> u32 {
         let mut known = known;
         let mut segments = 0;
         for _ in 0..MOST_SURFACES {
@@ -134,7 +235,33 @@ impl<O: Observer> Path<'_, O> {
             known = Known::Nothing;
             self.state.met += 1;
         }
+        segments
+    }
+
+    /// Nothing more comes of so many segments.
+    fn end_rays(&mut self, segments: u32) {
         (0..segments).for_each(|_| self.observer.ray_ends());
+    }
+
+    /// Goes on to the end.
+    fn follow_to_the_end(&mut self) {
+        let segments = self.follow(Known::Nothing);
+        self.end_rays(segments);
+    }
+
+    /// Goes on from the first surface that spreads light, as often as samples are split.
+    fn branch(&mut self, vertex: &Vertex<'_, '_>) {
+        let ways = self.tracer.split;
+        let (sampler, state, media) = (self.sampler, self.state, self.media.clone());
+        (self.pause, self.share) = (Pause::Nowhere, 1.0 / ways as f32);
+        for number in 0..ways {
+            (self.sampler, self.media) = (sampler.split(number, ways), media.clone());
+            self.state = State { weight: state.weight * self.share, ..state };
+            if self.turn(vertex, ways).is_some() {
+                self.state.met += 1;
+                self.follow_to_the_end();
+            }
+        }
     }
 
     /// Goes to what the last segment meets, and finds the next segment; false if there is none.
@@ -185,7 +312,7 @@ impl<O: Observer> Path<'_, O> {
     }
 
     /// Light that the surface gives back, and the next segment.
-    fn scatter(&mut self, shading: &Shading<'_>) -> bool {
+    fn scatter(&mut self, shading: &Shading<'a>) -> bool {
         let Some(indices) = self.indices(shading) else {
             // Shadow rays do not know that there is nothing.
             self.state.aimed = None;
@@ -199,41 +326,35 @@ impl<O: Observer> Path<'_, O> {
         }
         let receiver =
             Receiver { point: shading.origin_back(), normal: shading.normal(), passes: bsdf.spreads_through() };
-        let ways = if self.is_split || bsdf.is_specular() { 1 } else { self.tracer.split };
-        if !bsdf.is_specular() {
-            self.aim(shading, (&frame, out), &bsdf, &receiver, ways);
-        }
-        if ways == 1 {
-            return self.turn(shading, (&frame, out), (&bsdf, indices), receiver, ways);
-        }
-        (self.is_split, self.share) = (true, 1.0 / ways as f32);
-        let (sampler, state, media) = (self.sampler, self.state, self.media.clone());
-        for number in 0..ways {
-            (self.sampler, self.media) = (sampler.split(number, ways), media.clone());
-            self.state = State { weight: state.weight * self.share, ..state };
-            if self.turn(shading, (&frame, out), (&bsdf, indices), receiver, ways) {
-                self.state.met += 1;
-                self.follow(Known::Nothing);
+        let vertex = Vertex { shading, frame: &frame, out, bsdf: &bsdf, indices, receiver: &receiver };
+        let is_specular = bsdf.is_specular();
+        match self.pause {
+            Pause::AfterSurfaces(met) if met == self.state.met && self.can_be_reused_from(&vertex) => {
+                self.paused = Some(vertex.paused());
+                return false;
             }
+            Pause::WhereSpread if !is_specular => {
+                self.aim(&vertex, self.tracer.split);
+                self.paused = Some(vertex.paused());
+                return false;
+            }
+            Pause::AfterSurfaces(_) => self.pause = Pause::Nowhere,
+            Pause::Nowhere | Pause::WhereSpread => {}
         }
-        false
+        if !is_specular {
+            self.aim(&vertex, 1);
+        }
+        self.turn(&vertex, 1).is_some()
     }
 
-    /// The next segment from a surface, in a direction that it likes; one of so many.
+    /// The next segment from a surface, in a direction that it likes; one of so many. Gives the chance with which the path
+    /// went on, `None` if it does not.
     #[inline]
-    fn turn(
-        &mut self,
-        shading: &Shading<'_>,
-        (frame, out): (&Frame, DVec3),
-        (bsdf, indices): (&Bsdf, Indices),
-        receiver: Receiver,
-        ways: u32,
-    ) -> bool {
+    fn turn(&mut self, vertex: &Vertex<'_, '_>, ways: u32) -> Option<f32> {
+        let Vertex { shading, frame, out, bsdf, indices, receiver } = vertex;
         let step = self.step();
         let lobe = if bsdf.has_one_lobe() { 0.0 } else { self.sampler.one(step, Purpose::Lobe) };
-        let Some(scattered) = bsdf.sample(out, lobe, self.sampler.two(step, Purpose::Direction)) else {
-            return false;
-        };
+        let scattered = bsdf.sample(*out, lobe, self.sampler.two(step, Purpose::Direction))?;
         let passes = scattered.direction.z < 0.0;
         let direction = frame.to_world(scattered.direction).normalize();
         let mut weight = scattered.weight;
@@ -246,18 +367,18 @@ impl<O: Observer> Path<'_, O> {
         let survival = self.survival();
         self.observer.scattering(&Scattering { direction, pdf, weight, survival });
         if !self.survives(survival) {
-            return false;
+            return None;
         }
         match scattered.how {
             How::Straight => {
                 self.pass(shading, shading.bounds_medium);
-                return true;
+                return Some(survival);
             }
             How::Spread { pdf } => {
                 if shading.is_on_far_side(direction) != passes {
-                    return false;
+                    return None;
                 }
-                self.state.aimed = Some(Aimed { receiver, pdf: pdf * f64::from(ways) });
+                self.state.aimed = Some(Aimed { receiver: **receiver, pdf: pdf * f64::from(ways) });
             }
             How::Only => self.state.aimed = None,
         }
@@ -275,7 +396,7 @@ impl<O: Observer> Path<'_, O> {
         } else {
             self.go_on(RayKind::Reflected, shading.ray_back(direction));
         }
-        true
+        Some(survival)
     }
 
     /// Where the longest path ends, its last segment goes on through what lets light pass straight, as shadow rays do.
@@ -310,21 +431,23 @@ impl<O: Observer> Path<'_, O> {
         (!is_none).then_some(Indices { before, behind: Some(behind) })
     }
 
+    /// Light from an emitter that is aimed at, where so many ways go on.
+    fn aim(&mut self, vertex: &Vertex<'_, '_>, ways: u32) {
+        if let Some(Arriving { source, scattered, light, .. }) = self.arriving(vertex, ways) {
+            self.add(source, scattered * light);
+        }
+    }
+
     /// Looks for light by aiming at an emitter, where so many ways go on.
-    fn aim(
-        &mut self,
-        shading: &Shading<'_>,
-        (frame, out): (&Frame, DVec3),
-        bsdf: &Bsdf,
-        receiver: &Receiver,
-        ways: u32,
-    ) {
+    #[inline]
+    fn arriving(&mut self, vertex: &Vertex<'_, '_>, ways: u32) -> Option<Arriving> {
+        let Vertex { shading, frame, out, bsdf, receiver, .. } = vertex;
         let (scene, step) = (self.scene, self.step());
         let choice = if scene.emitters.is_one() { 0.0 } else { self.sampler.one(step, Purpose::Light) };
         let at = self.sampler.two(step, Purpose::LightPoint);
-        let Some(light) = scene.emitters.sample(scene, receiver, choice, at) else { return };
+        let light = scene.emitters.sample(scene, receiver, choice, at)?;
         let toward = frame.to_local(light.direction);
-        let (mut scattered, pdf) = bsdf.evaluate(out, toward);
+        let (mut scattered, pdf) = bsdf.evaluate(*out, toward);
         let mut visible = Rgb::BLACK;
         let passes = toward.z < 0.0;
         if !passes {
@@ -348,19 +471,20 @@ impl<O: Observer> Path<'_, O> {
             let distance = Some(light.distance);
             self.observer.light(&LightSeen { index, distance, cosine: toward.z, visibility: visible });
         }
-        if !visible.is_black() {
-            let pdf = pdf * f64::from(ways);
-            let part = if light.is_point { 1.0 } else { power_heuristic(light.pdf, pdf) };
-            let by_aiming = if light.is_point { f64::INFINITY } else { light.pdf };
-            self.observer.weighing(&Weighing { by_surface: pdf, by_aiming, part });
-            let mut arriving = light.light * visible * ((part / light.pdf) as f32);
-            // As it is for those who find the same light otherwise. Lamps at infinity would not be seen through any fog, and
-            // nobody means that.
-            if let (Some(fog), true) = (&scene.fog, !light.is_point || light.distance.is_finite()) {
-                arriving = arriving * fog.veil(light.distance).visible;
-            }
-            self.add(Source::Light(light.lamp), scattered * arriving);
+        if visible.is_black() {
+            return None;
         }
+        let pdf = pdf * f64::from(ways);
+        let part = if light.is_point { 1.0 } else { power_heuristic(light.pdf, pdf) };
+        let by_aiming = if light.is_point { f64::INFINITY } else { light.pdf };
+        self.observer.weighing(&Weighing { by_surface: pdf, by_aiming, part });
+        let mut arriving = light.light * visible * ((part / light.pdf) as f32);
+        // As it is for those who find the same light otherwise. Lamps at infinity would not be seen through any fog, and
+        // nobody means that.
+        if let (Some(fog), true) = (&scene.fog, !light.is_point || light.distance.is_finite()) {
+            arriving = arriving * fog.veil(light.distance).visible;
+        }
+        Some(Arriving { source: Source::Light(light.lamp), toward, scattered, light: arriving })
     }
 
     /// What light counts that the last segment has found, if by aiming it is found with this density from a receiver.
@@ -393,6 +517,10 @@ impl<O: Observer> Path<'_, O> {
 
     /// The chance of a path of this weight to go on.
     fn survival(&self) -> f32 {
+        if let Pause::AfterSurfaces(_) = self.pause {
+            // What others may use is as dense as it is said to be.
+            return 1.0;
+        }
         let weight = self.state.weight.max_component() / (self.state.scale * self.share);
         match self.state.depth {
             depth if depth < FIRST_ROULETTE && weight > 0.0 => 1.0,
@@ -430,6 +558,10 @@ impl<O: Observer> Path<'_, O> {
     /// Adds light that arrives at the start of the last segment.
     fn add(&mut self, source: Source, light: Rgb) {
         let mut amount = self.state.weight * light;
+        if self.is_apart {
+            self.sum += amount;
+            return;
+        }
         if let (Some(most), false) = (self.tracer.clamp, source.is_direct(self.state.depth)) {
             let (largest, most) = (amount.max_component(), most * self.share);
             if largest > most {

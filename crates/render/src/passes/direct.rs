@@ -5,25 +5,16 @@ use durer_geometry::Ray;
 use durer_math::Rgb;
 
 /// Counts rays, and adds up direct light.
-pub(super) struct Direct<'a> {
-    rays: &'a mut RayCounts,
+#[derive(Default)]
+pub(super) struct Direct {
+    pub(super) rays: RayCounts,
     /// Of the last segment of the path.
     depth: u32,
-    light: Rgb,
-}
-
-impl<'a> Direct<'a> {
-    pub(super) fn new(rays: &'a mut RayCounts) -> Direct<'a> {
-        Direct { rays, depth: 1, light: Rgb::BLACK }
-    }
-
     /// The direct light of the sample.
-    pub(super) fn light(&self) -> Rgb {
-        self.light
-    }
+    pub(super) light: Rgb,
 }
 
-impl Observer for Direct<'_> {
+impl Observer for Direct {
     fn ray_begins(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb) {
         self.depth = depth;
         self.rays.ray_begins(kind, depth, ray, weight);

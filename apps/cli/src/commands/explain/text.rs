@@ -79,7 +79,7 @@ impl Explained<'_> {
     fn ray(&self, page: &mut Ledger, ray: &RayExplanation) {
         let weight = match ray.kind {
             RayKind::Eye => String::new(),
-            RayKind::Reflected | RayKind::Transmitted => format!(", weight {}", color(ray.weight)),
+            RayKind::Reflected | RayKind::Transmitted | RayKind::Connected => format!(", weight {}", color(ray.weight)),
         };
         page.line(&format!("{}, depth {}{weight}", words::ray(ray.kind), ray.depth));
         let ends = ray.children.is_empty() && ray.not_traced.is_empty();

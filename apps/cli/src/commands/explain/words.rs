@@ -10,6 +10,7 @@ pub(super) fn ray(kind: RayKind) -> &'static str {
         RayKind::Eye => "ray of the eye",
         RayKind::Reflected => "reflected ray",
         RayKind::Transmitted => "transmitted ray",
+        RayKind::Connected => "ray to where a path was",
     }
 }
 
@@ -19,6 +20,7 @@ pub(super) fn ray_key(kind: RayKind) -> &'static str {
         RayKind::Eye => "eye",
         RayKind::Reflected => "reflected",
         RayKind::Transmitted => "transmitted",
+        RayKind::Connected => "connected",
     }
 }
 
@@ -32,6 +34,7 @@ pub(super) fn source(source: Source) -> &'static str {
         Source::Diffuse(_) => "diffuse",
         Source::Specular(_) => "highlight",
         Source::Light(_) => "light that was aimed at",
+        Source::Reused => "light that a path found",
         Source::Shown => "what is shown of it",
     }
 }
@@ -46,6 +49,7 @@ pub(super) fn source_key(source: Source) -> &'static str {
         Source::Diffuse(_) => "diffuse",
         Source::Specular(_) => "specular",
         Source::Light(_) => "light",
+        Source::Reused => "reused",
         Source::Shown => "shown",
     }
 }
@@ -55,7 +59,7 @@ pub(super) fn light_of(source: Source) -> Option<usize> {
     match source {
         Source::Diffuse(light) | Source::Specular(light) => Some(light),
         Source::Light(light) => light,
-        Source::Fog | Source::Background | Source::Emission | Source::Ambient | Source::Shown => None,
+        Source::Fog | Source::Background | Source::Emission | Source::Ambient | Source::Reused | Source::Shown => None,
     }
 }
 

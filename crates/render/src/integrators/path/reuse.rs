@@ -1,0 +1,280 @@
+//! Paths that serve several pixels: Bekaert, Sbert and Halton, "Accelerating Path Tracing by Re-Using Paths", EGWR 2002.
+//!
+//! The samples with the same number of a block of pixels are taken together. Each path goes from its vertex, the first surface
+//! that spreads light, to the next surface, its junction, and what arrives there is found out once. Then every vertex that sees
+//! a junction takes light from it. Junctions are found from all vertices, each with its own density, so the balance heuristic
+//! weighs them (Veach 1997, §9.2): with n vertices x and densities p, light from a junction y counts f(x, y) / Σ p(xₖ → y), where
+//! the sum is over all that see y. That is never more than what x, had it found y itself, would make of it: light that is near
+//! to one pixel makes no others bright.
+//!
+//! A picture is as true as without, and has far less noise where most light comes by way of other things; for a path costs much
+//! more than a ray that asks whether two points see each other. What is left of the noise is alike in the pixels of a block.
+
+use super::{Path, PathTracer, Pause, Paused, State, Vertex};
+use crate::bsdf::Bsdf;
+use crate::compile::CompiledScene;
+use crate::frame::Frame;
+use crate::integrators::Together;
+use crate::observer::{Observer, RayKind, Source};
+use arrayvec::ArrayVec;
+use durer_geometry::{LANES, Packet, Ray};
+use durer_math::{DVec3, Rgb};
+
+/// Others may make more of light than a path's own vertex does, if that is darker than this.
+const DARK: f32 = 0.25;
+
+/// Takes samples that belong together.
+pub(super) fn trace<O: Observer>(tracer: &PathTracer, scene: &CompiledScene, samples: &mut [&mut Together<'_, O>]) {
+    let mut lights = Vec::with_capacity(samples.len());
+    let begun = samples.iter_mut().map(|sample| {
+        let Together { ray, known, sampler, observer, light } = &mut **sample;
+        lights.push(light);
+        let mut path = Path::new(tracer, (scene, ray), sampler, observer);
+        path.pause = Pause::WhereSpread;
+        let segments = path.follow(*known);
+        let paused = path.paused.take();
+        Member { path, paused, segments }
+    });
+    let mut members: Vec<Member<'_, O>> = begun.collect();
+    let mut junctions = Vec::with_capacity(members.len() * tracer.split as usize);
+    for (index, member) in members.iter_mut().enumerate() {
+        member.go_on(index, &mut junctions);
+    }
+    let views = members.iter_mut().enumerate().filter_map(|(index, member)| member.view(index));
+    let views: Vec<View<'_>> = views.collect();
+    let mut seen = Vec::with_capacity(views.len());
+    for junction in &junctions {
+        if junction.lights.iter().all(|(_, light)| light.is_black()) {
+            continue;
+        }
+        junction.look(scene, &views, &mut seen);
+        let density: f64 = seen.iter().map(|seen| seen.density).sum::<f64>() * f64::from(tracer.split);
+        for &Seen { member, way, scattered, area, .. } in &seen {
+            let light = junction.toward(way.direction) * scattered * ((area / density) as f32);
+            members[member].path.add_reused(way, light);
+        }
+    }
+    for (mut member, light) in members.into_iter().zip(lights) {
+        member.path.end_rays(member.segments);
+        *light = member.path.sum;
+    }
+}
+
+/// One of the samples.
+struct Member<'a, O> {
+    path: Path<'a, O>,
+    /// Where it first met a surface that spreads light.
+    paused: Option<Paused<'a>>,
+    /// Up to there.
+    segments: u32,
+}
+
+/// A vertex that looks for junctions.
+struct View<'a> {
+    /// Its number among the samples.
+    member: usize,
+    depth: u32,
+    paused: Paused<'a>,
+}
+
+/// A surface that a path has met, and the light that arrives there.
+struct Junction {
+    /// The number of the sample whose path it was, …
+    member: usize,
+    /// … and of the segment that led here.
+    depth: u32,
+    /// Where shadow rays end, on the side that the path came from.
+    point: DVec3,
+    /// The unit normal of the surface on that side.
+    face: DVec3,
+    frame: Frame,
+    bsdf: Bsdf,
+    /// Where it comes from, in the frame, and radiance over density.
+    lights: ArrayVec<(DVec3, Rgb), 2>,
+}
+
+/// A junction, seen from a vertex.
+#[derive(Clone, Copy)]
+struct Seen {
+    member: usize,
+    way: Ray,
+    /// What is scattered of light from there, times the cosine.
+    scattered: Rgb,
+    /// Solid angle over area.
+    area: f64,
+    /// With which the vertex finds such points, per area.
+    density: f64,
+}
+
+impl<'a, O: Observer> Member<'a, O> {
+    /// Goes on from the vertex, if there is one.
+    fn go_on(&mut self, index: usize, junctions: &mut Vec<Junction>) {
+        let Some(paused) = &self.paused else { return };
+        let (path, vertex) = (&mut self.path, paused.vertex());
+        if !path.can_reuse_at(&vertex) {
+            path.branch(&vertex);
+            return;
+        }
+        let ways = path.tracer.split;
+        let (sampler, state) = (path.sampler, path.state);
+        path.share = 1.0 / ways as f32;
+        for number in 0..ways {
+            path.sampler = sampler.split(number, ways);
+            path.state = State { weight: state.weight * path.share, ..state };
+            path.media = Default::default();
+            path.pause = Pause::AfterSurfaces(state.met + 1);
+            if path.turn(&vertex, ways).is_none() {
+                continue;
+            }
+            path.state.met += 1;
+            let segments = path.follow(crate::holes::Known::Nothing);
+            if let Some(found) = path.paused.take() {
+                junctions.push(path.junction(index, &found.vertex()));
+            }
+            path.end_rays(segments);
+        }
+        (path.state, path.sampler, path.share) = (state, sampler, 1.0 / ways as f32);
+    }
+
+    fn view(&mut self, index: usize) -> Option<View<'a>> {
+        let paused = self.paused.take().filter(|paused| self.path.can_reuse_at(&paused.vertex()))?;
+        Some(View { member: index, depth: self.path.state.depth, paused })
+    }
+}
+
+impl<'a, O: Observer> Path<'a, O> {
+    /// True if light from other paths' junctions may be taken here.
+    pub(super) fn can_reuse_at(&self, vertex: &Vertex<'_, '_>) -> bool {
+        self.can_reuse()
+            && !vertex.shading.bounds_medium
+            && !vertex.bsdf.is_specular()
+            && !vertex.bsdf.spreads_through()
+    }
+
+    /// True if light that arrives here may be seen by others.
+    pub(super) fn can_be_reused_from(&self, vertex: &Vertex<'_, '_>) -> bool {
+        self.can_reuse() && !vertex.shading.bounds_medium && vertex.bsdf.is_broad()
+    }
+
+    /// True in empty space.
+    fn can_reuse(&self) -> bool {
+        self.scene.fog.is_none() && self.media.is_empty()
+    }
+
+    /// Finds out what light arrives at a surface, by aiming and by going on. What may not be seen by others is added up.
+    fn junction(&mut self, member: usize, found: &Vertex<'_, 'a>) -> Junction {
+        let mut lights = ArrayVec::new();
+        if let Some(arriving) = self.arriving(found, 1) {
+            let kept = found.shading.kept(found.frame.to_world(arriving.toward)) as f32;
+            lights.push((arriving.toward, arriving.light * kept));
+        }
+        let State { depth, weight, .. } = self.state;
+        self.state.weight = Rgb::WHITE;
+        if self.turn(found, 1).is_some() {
+            self.pause = Pause::Nowhere;
+            self.state.met += 1;
+            match self.state.aimed {
+                Some(aimed) => {
+                    let direction = self.state.ray.direction;
+                    let counts = found.shading.kept(direction) / aimed.pdf;
+                    // Roulette goes by what it counts for a vertex that is about as bright as the path's own, if not too dark.
+                    let brightness = (weight.max_component() / self.share).clamp(DARK, 1.0);
+                    self.state.scale = 1.0 / (self.state.weight.max_component() * brightness * self.share);
+                    let light = self.arriving_from_there() * counts as f32;
+                    lights.push((found.frame.to_local(direction), light));
+                }
+                None => {
+                    self.state.weight *= weight;
+                    self.follow_to_the_end();
+                }
+            }
+        }
+        Junction {
+            member,
+            depth,
+            point: found.receiver.point,
+            face: found.shading.face(),
+            frame: *found.frame,
+            bsdf: *found.bsdf,
+            lights,
+        }
+    }
+
+    /// The light that arrives along the last segment: it is not added up.
+    fn arriving_from_there(&mut self) -> Rgb {
+        self.state.weight = Rgb::WHITE;
+        let sum = std::mem::replace(&mut self.sum, Rgb::BLACK);
+        self.is_apart = true;
+        self.follow_to_the_end();
+        self.is_apart = false;
+        std::mem::replace(&mut self.sum, sum)
+    }
+
+    /// Adds light from a junction.
+    fn add_reused(&mut self, way: Ray, light: Rgb) {
+        let State { weight, depth, .. } = self.state;
+        self.observer.ray_begins(RayKind::Connected, depth + 1, &way, weight);
+        self.add(Source::Reused, light);
+        self.observer.ray_ends();
+    }
+}
+
+impl Junction {
+    /// From which vertices it is seen.
+    fn look(&self, scene: &CompiledScene, views: &[View<'_>], seen: &mut Vec<Seen>) {
+        seen.clear();
+        seen.extend(views.iter().filter_map(|view| self.from(view)));
+        let mut at = 0;
+        let mut is_dark = [false; 64];
+        for chunk in seen.chunks(LANES) {
+            let rays: ArrayVec<Ray, LANES> = chunk.iter().map(|seen| seen.way).collect();
+            let mut reach = [0.0; LANES];
+            for (reach, seen) in reach.iter_mut().zip(chunk) {
+                *reach = (self.point - seen.way.origin).length();
+            }
+            let dark = scene.world.any_hits(&Packet::new(&rays), &reach, u32::MAX);
+            for lane in 0..chunk.len() {
+                is_dark[at] = dark >> lane & 1 == 1 && chunk[lane].member != self.member;
+                at += 1;
+            }
+        }
+        let mut at = 0;
+        seen.retain(|_| {
+            at += 1;
+            !is_dark[at - 1]
+        });
+    }
+
+    /// How a vertex sees it, if nothing is between.
+    fn from(&self, view: &View<'_>) -> Option<Seen> {
+        let Paused { shading, frame, out, bsdf, receiver, .. } = &view.paused;
+        let way = self.point - receiver.point;
+        let squared = way.length_squared();
+        let direction = way * (1.0 / squared.sqrt());
+        let area = -direction.dot(self.face) / squared;
+        let toward = frame.to_local(direction);
+        // (Not if it is not a number, either.)
+        if !(area > 0.0 && area.is_finite() && toward.z > 0.0)
+            || view.depth + 1 != self.depth
+            || shading.is_on_far_side(direction)
+        {
+            return None;
+        }
+        let (scattered, pdf) = bsdf.evaluate(*out, toward);
+        let scattered = scattered * shading.kept(direction) as f32;
+        (pdf > 0.0).then_some(Seen {
+            member: view.member,
+            way: Ray { origin: receiver.point, direction },
+            scattered,
+            area,
+            density: pdf * area,
+        })
+    }
+
+    /// Radiance against this direction.
+    fn toward(&self, direction: DVec3) -> Rgb {
+        let out = self.frame.to_local(-direction);
+        let lights = self.lights.iter().map(|(toward, light)| self.bsdf.evaluate(out, *toward).0 * *light);
+        lights.fold(Rgb::BLACK, |sum, light| sum + light)
+    }
+}
