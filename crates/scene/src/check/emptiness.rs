@@ -4,6 +4,7 @@ use super::Step;
 use super::values::Checker;
 use crate::{Background, Import, Instances, Mesh, MeshData, Object, ObjectKind, ParticleKind, Particles};
 use durer_math::DVec3;
+use std::sync::Arc;
 
 pub(super) fn remark(c: &mut Checker<'_>) {
     let scene = c.scene;
@@ -54,6 +55,9 @@ fn list(c: &mut Checker<'_>, objects: &[Object], message: &str) {
 }
 
 fn mesh(c: &mut Checker<'_>, mesh: &Mesh) {
+    if !c.meshes.insert(Arc::as_ptr(&mesh.data) as usize) {
+        return;
+    }
     let wrong = match (mesh.data.triangles.is_empty(), has_area(&mesh.data)) {
         (true, _) => "there is nothing to see of this mesh: it has no triangles",
         (false, false) => "there is nothing to see of this mesh: none of its triangles has an area",
@@ -83,12 +87,12 @@ fn particles(c: &mut Checker<'_>, particles: &Particles) {
     c.field(field, |c| c.problem_with_help(message, "each entry makes one"));
 }
 
-/// True if there is anything in it.
+/// True if there is anything in it. Whether triangles have an area is not asked: many objects may share them.
 fn shows(object: &Object) -> bool {
     match &object.kind {
         ObjectKind::Shape(_) => true,
         ObjectKind::Group(members) => members.iter().any(shows),
-        ObjectKind::Mesh(mesh) => has_area(&mesh.data),
+        ObjectKind::Mesh(mesh) => !mesh.data.triangles.is_empty(),
         ObjectKind::Particles(particles) => !particles.kind.is_empty(),
         ObjectKind::Instances(Instances { objects, positions, .. }) => {
             !positions.values.is_empty() && objects.iter().any(shows)
