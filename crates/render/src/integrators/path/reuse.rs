@@ -36,7 +36,7 @@ pub(super) fn trace<O: Observer>(tracer: &PathTracer, scene: &CompiledScene, sam
         Member { path, paused, segments }
     });
     let mut members: Vec<Member<'_, O>> = begun.collect();
-    let mut junctions = Vec::with_capacity(members.len() * tracer.split as usize);
+    let mut junctions = Vec::with_capacity(members.len() * tracer.0.split as usize);
     for (index, member) in members.iter_mut().enumerate() {
         member.go_on(index, &mut junctions);
     }
@@ -48,7 +48,7 @@ pub(super) fn trace<O: Observer>(tracer: &PathTracer, scene: &CompiledScene, sam
             continue;
         }
         junction.look(scene, &views, &mut seen);
-        let density: f64 = seen.iter().map(|seen| seen.density).sum::<f64>() * f64::from(tracer.split);
+        let density: f64 = seen.iter().map(|seen| seen.density).sum::<f64>() * f64::from(tracer.0.split);
         for &Seen { member, way, scattered, area, .. } in &seen {
             let light = junction.toward(way.direction) * scattered * ((area / density) as f32);
             members[member].path.add_reused(way, light);
@@ -115,7 +115,7 @@ impl<'a, O: Observer> Member<'a, O> {
             path.branch(&vertex);
             return;
         }
-        let ways = path.tracer.split;
+        let ways = path.tracer.0.split;
         let (sampler, state) = (path.sampler, path.state);
         path.share = 1.0 / ways as f32;
         for number in 0..ways {
