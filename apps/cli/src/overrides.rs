@@ -86,7 +86,7 @@ impl Overlay for Overrides {
         self.light.change_render(render);
         self.light.change_picture(picture);
         match &mut render.integrator {
-            Integrator::Path { max_depth, clamp: _, split: _ } => *max_depth = self.max_depth.unwrap_or(*max_depth),
+            Integrator::Path(path) => path.max_depth = self.max_depth.unwrap_or(path.max_depth),
             Integrator::Whitted
             | Integrator::AmbientOcclusion { .. }
             | Integrator::Normals

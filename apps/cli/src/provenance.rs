@@ -3,7 +3,7 @@
 
 use crate::commands::info::{antialias_text, filter_text, tone_mapping_word, transfer_word};
 use durer::math::Fingerprint;
-use durer::scene::{Integrator, Picture, RenderSettings, Scene};
+use durer::scene::{Integrator, PathSettings, Picture, RenderSettings, Scene};
 use durer::{Region, Sums};
 
 /// The program that wrote it, for every picture.
@@ -35,7 +35,7 @@ pub(crate) fn of_render(loaded: Fingerprint, rendered: &Scene, crop: Option<Regi
             entry("Antialias", antialias_text(settings.antialias)),
             entry("Filter", filter_text(settings.filter)),
         ]),
-        Integrator::Path { max_depth, clamp, split } => {
+        Integrator::Path(PathSettings { max_depth, clamp, split, reuse }) => {
             entries.extend([
                 entry("Integrator", settings.integrator.word()),
                 entry("Filter", filter_text(settings.filter)),
@@ -43,6 +43,7 @@ pub(crate) fn of_render(loaded: Fingerprint, rendered: &Scene, crop: Option<Regi
             ]);
             entries.extend(clamp.map(|clamp| entry("Clamp", clamp.to_string())));
             entries.extend((split > 1).then(|| entry("Split", split.to_string())));
+            entries.extend((reuse > 1).then(|| entry("Reuse", reuse.to_string())));
             entries.extend(of_sampling(&settings));
         }
         Integrator::AmbientOcclusion { distance } => {

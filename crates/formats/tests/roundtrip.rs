@@ -377,16 +377,16 @@ fn settings() -> BoxedStrategy<Scene> {
     let picture = (1_u32..9999, 1_u32..9999, transfer, -9_f32..9.0, prop::sample::select(tones)).prop_map(
         |(width, height, transfer, exposure, tone_mapping)| Picture { width, height, transfer, exposure, tone_mapping },
     );
-    let integrator =
-        prop_oneof![
-            Just(Integrator::Whitted),
-            (1_u32..99, prop::option::of(1_f32..9.0), 1_u32..9)
-                .prop_map(|(max_depth, clamp, split)| Integrator::Path { max_depth, clamp, split }),
-            prop::option::of(size()).prop_map(|distance| Integrator::AmbientOcclusion { distance }),
-            Just(Integrator::Normals),
-            Just(Integrator::Depth),
-            Just(Integrator::Uv),
-        ];
+    let integrator = prop_oneof![
+        Just(Integrator::Whitted),
+        (1_u32..99, prop::option::of(1_f32..9.0), 1_u32..9, prop::sample::select(&PathSettings::REUSES)).prop_map(
+            |(max_depth, clamp, split, reuse)| Integrator::Path(PathSettings { max_depth, clamp, split, reuse })
+        ),
+        prop::option::of(size()).prop_map(|distance| Integrator::AmbientOcclusion { distance }),
+        Just(Integrator::Normals),
+        Just(Integrator::Depth),
+        Just(Integrator::Uv),
+    ];
     let sampling = (
         prop::option::of(1_u32..999),
         prop::option::of(0.001_f32..0.5),

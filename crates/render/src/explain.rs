@@ -169,9 +169,7 @@ pub fn explain(scene: &CompiledScene, x: u32, y: u32) -> Option<PixelExplanation
         return None;
     }
     match scene.settings.integrator {
-        Integrator::Path { max_depth, clamp, split } => {
-            return explain_samples(scene, &PathTracer { max_depth, clamp, split, reuse: 1 }, (x, y));
-        }
+        Integrator::Path(settings) => return explain_samples(scene, &PathTracer(settings), (x, y)),
         Integrator::AmbientOcclusion { distance } => {
             let distance = distance.unwrap_or(f64::INFINITY);
             return explain_samples(scene, &AmbientOcclusion { distance }, (x, y));

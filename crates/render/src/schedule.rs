@@ -168,20 +168,7 @@ fn samples_of(scene: &CompiledScene, options: &RenderOptions) -> Result<Option<S
 /// Takes samples with the integrator that the scene wants.
 fn take_samples(scene: &CompiledScene, goal: Goal, film: &mut Film, progress: &dyn Progress) {
     match scene.settings.integrator {
-        Integrator::Path { max_depth, clamp, split } => {
-            take_samples_with(
-                scene,
-                &PathTracer {
-                    max_depth,
-                    clamp,
-                    split,
-                    reuse: std::env::var("DURER_REUSE").map_or(1, |v| v.parse().unwrap()),
-                },
-                goal,
-                film,
-                progress,
-            );
-        }
+        Integrator::Path(settings) => take_samples_with(scene, &PathTracer(settings), goal, film, progress),
         Integrator::AmbientOcclusion { distance } => {
             let distance = distance.unwrap_or(f64::INFINITY);
             take_samples_with(scene, &AmbientOcclusion { distance }, goal, film, progress);

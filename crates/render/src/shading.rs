@@ -161,6 +161,13 @@ impl<'a> Shading<'a> {
         self.face
     }
 
+    /// True if who looks along this direction, to the same side, sees it shaded by the same normal: where normals that are not the
+    /// surface's own are seen edge-on or from behind, they are [turned](seen_by).
+    pub(crate) fn is_same_along(&self, direction: DVec3) -> bool {
+        let Some(Smooth { normal, ground, .. }) = &self.smooth else { return true };
+        normal.dot(direction) < -FLAT && ground.dot(direction) < -FLAT
+    }
+
     /// The normal of the plane from behind which no light comes to the side that the ray came from.
     #[inline]
     fn horizon(&self) -> DVec3 {

@@ -30,7 +30,9 @@ pub use mesh::{Import, Mesh, MeshData, MeshNormals, MeshPart};
 pub use metals::{MetalName, reflectance};
 pub use object::{Object, ObjectKind, Operation, Shape, Solid};
 pub use particles::{ParticleKind, Particles};
-pub use settings::{Antialias, Background, Environment, Fog, Integrator, Picture, PixelFilter, RenderSettings, Trees};
+pub use settings::{
+    Antialias, Background, Environment, Fog, Integrator, PathSettings, Picture, PixelFilter, RenderSettings, Trees,
+};
 pub use texture::{
     Channels, Encoding, Filter, ImageAsset, ImageId, ImageTexture, Mapping, MaterialId, Paint, Pattern, Space, Texture,
     TextureId, Wrap,

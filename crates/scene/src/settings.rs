@@ -111,15 +111,7 @@ pub enum Integrator {
     #[default]
     Whitted,
     /// All the light that there is, by path tracing (Kajiya 1986).
-    Path {
-        /// Longest path, counted in surfaces that light meets on its way from a light to the eye; at least 1.
-        max_depth: u32,
-        /// Samples brighter than this (largest component) are lowered to it, which takes fireflies away and some light with
-        /// them; `None` leaves all as it is.
-        clamp: Option<f32>,
-        /// How many paths go on from the first surface that spreads light; from 1.
-        split: u32,
-    },
+    Path(PathSettings),
     /// How much of the sky each point sees.
     AmbientOcclusion {
         /// What is further away hides nothing; `None` for any distance.
@@ -135,7 +127,7 @@ pub enum Integrator {
 
 impl Integrator {
     /// The path tracer, as it is unless something else is said.
-    pub const PATH: Integrator = Integrator::Path { max_depth: 16, clamp: None, split: 1 };
+    pub const PATH: Integrator = Integrator::Path(PathSettings::DEFAULT);
 
     /// True if it takes samples at random; the others look where anti-aliasing says.
     pub fn takes_samples(&self) -> bool {
@@ -155,6 +147,35 @@ impl Integrator {
             Integrator::Depth => "depth",
             Integrator::Uv => "uv",
         }
+    }
+}
+
+/// How paths are traced.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathSettings {
+    /// Longest path, counted in surfaces that light meets on its way from a light to the eye; at least 1.
+    pub max_depth: u32,
+    /// Samples brighter than this (largest component) are lowered to it, which takes fireflies away and some light with
+    /// them; `None` leaves all as it is.
+    pub clamp: Option<f32>,
+    /// How many paths go on from the first surface that spreads light; from 1.
+    pub split: u32,
+    /// By how many neighboring pixels a path is used: by its own alone, or by those of a block of 2 × 2, 4 × 4 or 8 × 8; one of
+    /// [`PathSettings::REUSES`].
+    pub reuse: u32,
+}
+
+impl PathSettings {
+    /// As paths are traced unless something else is said.
+    pub const DEFAULT: PathSettings = PathSettings { max_depth: 16, clamp: None, split: 1, reuse: 1 };
+    /// What `reuse` may be.
+    pub const REUSES: [u32; 4] = [1, 4, 16, 64];
+}
+
+impl Default for PathSettings {
+    /// [`PathSettings::DEFAULT`].
+    fn default() -> PathSettings {
+        PathSettings::DEFAULT
     }
 }
 

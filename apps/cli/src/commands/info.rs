@@ -12,7 +12,9 @@ use crate::progress::Show;
 use clap::Args;
 use durer::imaging::{FileFormat, ToneMapping, Transfer};
 use durer::math::DVec3;
-use durer::scene::{Antialias, Integrator, LightKind, Object, ObjectKind, Picture, PixelFilter, RenderSettings};
+use durer::scene::{
+    Antialias, Integrator, LightKind, Object, ObjectKind, PathSettings, Picture, PixelFilter, RenderSettings,
+};
 use durer::{Bounds, CompiledScene, GeometryMemory, Scene};
 use serde_json::{Value, json};
 
@@ -187,7 +189,7 @@ impl<'s> Facts<'s> {
             "picture": { "width": width, "height": height, "transfer": transfer_word(transfer), "exposure": exposure, "tone_mapping": tone_mapping_word(tone_mapping) },
             "integrator": render.integrator.word(),
             "max_depth": match render.integrator {
-                Integrator::Path { max_depth, .. } => max_depth,
+                Integrator::Path(PathSettings { max_depth, .. }) => max_depth,
                 Integrator::Whitted
                 | Integrator::AmbientOcclusion { .. }
                 | Integrator::Normals
@@ -288,10 +290,11 @@ fn integrator_text(render: &RenderSettings) -> String {
     };
     let what = match render.integrator {
         Integrator::Whitted => format!("depth {depth}, antialias {antialias}"),
-        Integrator::Path { max_depth, clamp, split } => {
+        Integrator::Path(PathSettings { max_depth, clamp, split, reuse }) => {
             let clamp = clamp.map_or(String::new(), |clamp| format!(", clamp {clamp}"));
             let split = if split > 1 { format!(", split {split}") } else { String::new() };
-            format!("path, depth {max_depth}{clamp}{split}, {}", samples_text(render))
+            let reuse = if reuse > 1 { format!(", reuse {reuse}") } else { String::new() };
+            format!("path, depth {max_depth}{clamp}{split}{reuse}, {}", samples_text(render))
         }
         Integrator::AmbientOcclusion { distance } => {
             let distance = distance.map_or(String::new(), |distance| format!(", distance {distance}"));

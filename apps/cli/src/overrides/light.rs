@@ -3,7 +3,7 @@
 use crate::commands::develop::{exposure, tone_mappings};
 use clap::Args;
 use durer::imaging::ToneMapping;
-use durer::scene::{Integrator, Picture, RenderSettings};
+use durer::scene::{Integrator, PathSettings, Picture, RenderSettings};
 
 /// Settings of light that win over those of the scene file.
 #[derive(Args, Debug, Default)]
@@ -95,16 +95,18 @@ fn integrator(text: &str) -> Result<Integrator, String> {
         Some((word, numbers)) => (word, numbers.split(',').collect::<Vec<_>>()),
         None => (text, Vec::new()),
     };
-    let Integrator::Path { max_depth, clamp, split } = Integrator::PATH else { return Err(wrong()) };
     match (word, &numbers[..]) {
         ("whitted", []) => Ok(Integrator::Whitted),
-        ("path", []) => Ok(Integrator::Path { max_depth, clamp, split }),
-        ("path", [depth]) => Ok(Integrator::Path { max_depth: depth.parse().map_err(|_| wrong())?, clamp, split }),
-        ("path", [depth, clamp]) => Ok(Integrator::Path {
-            max_depth: depth.parse().map_err(|_| wrong())?,
-            clamp: Some(clamp.parse().map_err(|_| wrong())?),
-            split,
-        }),
+        ("path", []) => Ok(Integrator::PATH),
+        ("path", [depth]) => {
+            let max_depth = depth.parse().map_err(|_| wrong())?;
+            Ok(Integrator::Path(PathSettings { max_depth, ..Default::default() }))
+        }
+        ("path", [depth, clamp]) => {
+            let max_depth = depth.parse().map_err(|_| wrong())?;
+            let clamp = Some(clamp.parse().map_err(|_| wrong())?);
+            Ok(Integrator::Path(PathSettings { max_depth, clamp, ..Default::default() }))
+        }
         ("ambient_occlusion" | "ambient-occlusion", []) => Ok(Integrator::AmbientOcclusion { distance: None }),
         ("ambient_occlusion" | "ambient-occlusion", [distance]) => {
             Ok(Integrator::AmbientOcclusion { distance: Some(distance.parse().map_err(|_| wrong())?) })
@@ -130,8 +132,9 @@ mod tests {
         for word in ["whitted", "path", "ambient_occlusion", "normals", "depth", "uv"] {
             assert_eq!(Ok(of(word)), integrator(word));
         }
-        assert_eq!(integrator("path:32"), Ok(Integrator::Path { max_depth: 32, clamp: None, split: 1 }));
-        assert_eq!(integrator("path:32,10"), Ok(Integrator::Path { max_depth: 32, clamp: Some(10.0), split: 1 }));
+        let path = PathSettings { max_depth: 32, ..Default::default() };
+        assert_eq!(integrator("path:32"), Ok(Integrator::Path(path)));
+        assert_eq!(integrator("path:32,10"), Ok(Integrator::Path(PathSettings { clamp: Some(10.0), ..path })));
         let near = Integrator::AmbientOcclusion { distance: Some(0.5) };
         assert_eq!(integrator("ambient_occlusion:0.5"), Ok(near));
         for wrong in ["", "paths", "path:", "path:x", "path:1,2,3", "uv:1", "whitted:3"] {

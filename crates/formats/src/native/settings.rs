@@ -11,7 +11,8 @@ use crate::diagnostics::Complaint;
 use durer_imaging::{ToneMapping, Transfer};
 use durer_math::Rgb;
 use durer_scene::{
-    Antialias, Background, Environment, Fog, ImageId, Integrator, Picture, PixelFilter, RenderSettings, Trees,
+    Antialias, Background, Environment, Fog, ImageId, Integrator, PathSettings, Picture, PixelFilter, RenderSettings,
+    Trees,
 };
 use serde_json::{Value as Json, json};
 use std::rc::Rc;
@@ -114,14 +115,17 @@ pub(super) fn warn_of_unused(
     }
 }
 
+record!(PathSettings {
+    max_depth: u32 = 16 => "The most surfaces that light may meet on its way from a light to the eye, 1 to 1e6.";
+    clamp: Option<f32> = None => "Samples brighter than this are lowered to it: it takes away fireflies, and some light.";
+    split: u32 = 1 => "So many paths go on from the first surface of each sample that spreads light, 1 to 64: a sample takes longer, and where most light comes by way of other things it has less noise for the time.";
+    reuse: u32 = 1 => "So many neighboring pixels use each path: 1, or 4, 16 or 64, those of a block. Where most light comes by way of other things it takes far less time to the same noise, and what is left of that is alike in the pixels of a block.";
+});
+
 choice! { Integrator, "integrator";
     Whitted "whitted": "Classic ray tracing: mirrors, glass and shadows, without noise.", example "integrator: whitted", {}
     Path "path": "All the light that there is, by path tracing.", example "integrator: {path: {max_depth: 32}}",
-    {
-        max_depth: u32 = 16 => "The most surfaces that light may meet on its way from a light to the eye, 1 to 1e6.";
-        clamp: Option<f32> = None => "Samples brighter than this are lowered to it: it takes away fireflies, and some light.";
-        split: u32 = 1 => "So many paths go on from the first surface of each sample that spreads light, 1 to 64: a sample takes longer, and where most light comes by way of other things it has less noise for the time.";
-    }
+    (PathSettings)
     AmbientOcclusion "ambient_occlusion": "How much of the sky each point sees.",
     example "integrator: {ambient_occlusion: {distance: 2}}",
     {

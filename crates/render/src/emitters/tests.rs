@@ -31,7 +31,7 @@ fn floor() -> Scene {
         camera: Some(Default::default()),
         ..Scene::default()
     };
-    scene.render.integrator = durer_scene::Integrator::Path { max_depth: 16, clamp: None, split: 1 };
+    scene.render.integrator = durer_scene::Integrator::Path(durer_scene::PathSettings::default());
     scene
 }
 
@@ -54,7 +54,7 @@ fn lit_by(shape: Shape) -> Scene {
 /// The mean, and its standard error, of paths from just above the floor at the origin.
 fn seen(scene: Scene, samples: u32) -> (f64, f64) {
     let scene = compile(&scene.check().unwrap());
-    let tracer = PathTracer { max_depth: 2, clamp: None, split: 1 };
+    let tracer = PathTracer(durer_scene::PathSettings { max_depth: 2, ..Default::default() });
     let ray = Ray { origin: DVec3::Y * 1e-3, direction: DVec3::NEG_Y };
     let (mut sum, mut squares) = (0.0, 0.0);
     for index in 0..samples {

@@ -25,18 +25,10 @@ use crate::surfaces::Indices;
 use crate::visibility::{MOST_SURFACES, visibility};
 use durer_geometry::Ray;
 use durer_math::{DVec3, Rgb};
+use durer_scene::PathSettings;
 
 /// The path tracer.
-pub(crate) struct PathTracer {
-    /// The most segments of a path, from the eye to a light.
-    pub(crate) max_depth: u32,
-    /// The most that one contribution of light which came by more than one surface may bring (its largest component).
-    pub(crate) clamp: Option<f32>,
-    /// How many paths go on from the first surface that spreads light.
-    pub(crate) split: u32,
-    /// How many pixels use each of these.
-    pub(crate) reuse: u32,
-}
+pub(crate) struct PathTracer(pub(crate) PathSettings);
 
 /// Russian roulette begins with segments of this number.
 const FIRST_ROULETTE: u32 = 3;
@@ -49,7 +41,7 @@ const MOST_LIKELY: f32 = 0.99;
 
 impl Integrator for PathTracer {
     fn together(&self) -> u32 {
-        self.reuse
+        self.0.reuse
     }
 
     fn radiance<O: Observer>(
@@ -61,7 +53,7 @@ impl Integrator for PathTracer {
         observer: &mut O,
     ) -> Rgb {
         let mut path = Path::new(self, (scene, ray), sampler, observer);
-        if self.split > 1 {
+        if self.0.split > 1 {
             path.pause = Pause::WhereSpread;
         }
         let segments = path.follow(known);
@@ -73,7 +65,7 @@ impl Integrator for PathTracer {
     }
 
     fn radiances<O: Observer>(&self, scene: &CompiledScene, samples: &mut [&mut Together<'_, O>]) {
-        if self.reuse > 1 {
+        if self.0.reuse > 1 {
             reuse::trace(self, scene, samples);
             return;
         }
@@ -251,7 +243,7 @@ impl<'a, O: Observer> Path<'a, O> {
 
     /// Goes on from the first surface that spreads light, as often as samples are split.
     fn branch(&mut self, vertex: &Vertex<'_, '_>) {
-        let ways = self.tracer.split;
+        let ways = self.tracer.0.split;
         let (sampler, state, media) = (self.sampler, self.state, self.media.clone());
         (self.pause, self.share) = (Pause::Nowhere, 1.0 / ways as f32);
         for number in 0..ways {
@@ -321,7 +313,7 @@ impl<'a, O: Observer> Path<'a, O> {
         };
         let (frame, bsdf) = shading.scattering(self.scene, indices);
         let out = shading.out_in(&frame);
-        if self.state.depth >= self.tracer.max_depth {
+        if self.state.depth >= self.tracer.0.max_depth {
             return self.end(shading, bsdf.straight(out));
         }
         let receiver =
@@ -334,7 +326,7 @@ impl<'a, O: Observer> Path<'a, O> {
                 return false;
             }
             Pause::WhereSpread if !is_specular => {
-                self.aim(&vertex, self.tracer.split);
+                self.aim(&vertex, self.tracer.0.split);
                 self.paused = Some(vertex.paused());
                 return false;
             }
@@ -562,7 +554,7 @@ impl<'a, O: Observer> Path<'a, O> {
             self.sum += amount;
             return;
         }
-        if let (Some(most), false) = (self.tracer.clamp, source.is_direct(self.state.depth)) {
+        if let (Some(most), false) = (self.tracer.0.clamp, source.is_direct(self.state.depth)) {
             let (largest, most) = (amount.max_component(), most * self.share);
             if largest > most {
                 amount = amount * (most / largest);

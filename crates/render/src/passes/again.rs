@@ -96,7 +96,7 @@ mod tests {
     /// The same integrator makes the same film of them.
     #[test]
     fn they_are_the_very_samples() {
-        let tracer = PathTracer { max_depth: 16, clamp: None, split: 1 };
+        let tracer = PathTracer(durer_scene::PathSettings::default());
         for samples in [None, Some(SampleRange { start: 3, end: 7 })] {
             let options = RenderOptions { samples, ..RenderOptions::default() };
             let film = render(&scene(), &options, &()).unwrap();
@@ -108,7 +108,7 @@ mod tests {
     /// Films that noise ended, of parts of the picture that do not make a rectangle, are known still.
     #[test]
     fn merged_films_know_the_samples_of_each_part() {
-        let tracer = PathTracer { max_depth: 16, clamp: None, split: 1 };
+        let tracer = PathTracer(durer_scene::PathSettings::default());
         let mut scene = scene();
         (scene.settings.noise, scene.settings.samples) = (Some(0.03), Some(200));
         let of = |x, y, width, height| {

@@ -19,7 +19,7 @@ fn scene(width: u32, height: u32, change: impl FnOnce(&mut RenderSettings)) -> C
         picture: Picture { width, height, ..Picture::default() },
         ..Scene::default()
     };
-    scene.render.integrator = Kind::Path { max_depth: 4, clamp: None, split: 1 };
+    scene.render.integrator = Kind::Path(durer_scene::PathSettings { max_depth: 4, ..Default::default() });
     scene.render.samples = Some(7);
     change(&mut scene.render);
     compile(&scene.check().unwrap())

@@ -40,7 +40,8 @@ fn white(kind: ObjectKind, relief: Option<Relief>) -> Scene {
         lights: Vec::new(),
         ..Scene::default()
     };
-    scene.render.integrator = durer_scene::Integrator::Path { max_depth: 2, clamp: None, split: 1 };
+    scene.render.integrator =
+        durer_scene::Integrator::Path(durer_scene::PathSettings { max_depth: 2, ..Default::default() });
     scene
 }
 
@@ -60,7 +61,7 @@ fn seen_along(ray: &Ray, scene: &CompiledScene, integrator: &impl Integrator, sa
     (0..samples).map(each).map(f64::from).sum::<f64>() / f64::from(samples)
 }
 
-const TRACER: PathTracer = PathTracer { max_depth: 2, clamp: None, split: 1 };
+const TRACER: PathTracer = PathTracer(durer_scene::PathSettings { max_depth: 2, ..durer_scene::PathSettings::DEFAULT });
 
 /// A lamp that sinks towards the side to which normals lean: it fades before it sets, without steps, under both integrators.
 #[test]
@@ -106,7 +107,11 @@ fn aiming_finds_what_chance_finds() {
             scene.render.integrator = integrator;
             compile(&scene.check().unwrap())
         };
-        let aimed = seen(&scene(durer_scene::Integrator::Path { max_depth: 2, clamp: None, split: 1 }), &TRACER, 8000);
+        let aimed = seen(
+            &scene(durer_scene::Integrator::Path(durer_scene::PathSettings { max_depth: 2, ..Default::default() })),
+            &TRACER,
+            8000,
+        );
         let chance = seen(&scene(durer_scene::Integrator::Depth), &TRACER, 80_000);
         assert!((aimed / chance - 1.0).abs() < 0.05, "{aimed}, not {chance}, at {x}, {y}");
     }

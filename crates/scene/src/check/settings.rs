@@ -4,7 +4,7 @@ use super::Step;
 use super::values::Checker;
 use crate::{
     Antialias, Background, Camera, Environment, Falloff, Focus, Fog, ImageId, Integrator, Lens, Light, LightKind,
-    Material, MaterialKind, Paint, PixelFilter, Projection, RenderSettings, Scene, Strength,
+    Material, MaterialKind, Paint, PathSettings, PixelFilter, Projection, RenderSettings, Scene, Strength,
 };
 use durer_math::Rgb;
 
@@ -171,8 +171,10 @@ fn render(c: &mut Checker<'_>) {
 /// The integrator, and how much it samples.
 fn sampling(c: &mut Checker<'_>, settings: RenderSettings) {
     c.field("integrator", |c| match settings.integrator {
-        Integrator::Path { max_depth, clamp, split } => c.field("path", |c| {
+        Integrator::Path(PathSettings { max_depth, clamp, split, reuse }) => c.field("path", |c| {
             c.within("split", split.into(), 1.0, 64.0);
+            let message = format!("reuse must be 1, 4, 16 or 64, not {reuse}");
+            c.require(PathSettings::REUSES.contains(&reuse), "reuse", message);
             c.within("max_depth", max_depth.into(), 1.0, 1e6);
             if let Some(clamp) = clamp {
                 let message = "clamp must be above 0 and at most 1e12; without it nothing is lowered";

@@ -5,8 +5,8 @@ use super::{Maker, TEXTURES};
 use durer::math::Rgb;
 use durer::scene::{
     Attenuation, Background, Bump, Conductor, Emission, Environment, Falloff, Focus, Glass, ImageId, Integrator, Lens,
-    LightKind, Material, MaterialKind, Matte, Metal, MetalName, Mirror, NormalMap, Paint, Plastic, Principled, Relief,
-    Scene, Sides, Strength,
+    LightKind, Material, MaterialKind, Matte, Metal, MetalName, Mirror, NormalMap, Paint, PathSettings, Plastic,
+    Principled, Relief, Scene, Sides, Strength,
 };
 
 impl Maker<'_, '_> {
@@ -152,11 +152,12 @@ impl Maker<'_, '_> {
 
     fn integrator(&mut self) -> Integrator {
         match self.dice.below(8) {
-            4 => Integrator::Path {
+            4 => Integrator::Path(PathSettings {
                 max_depth: 1 + self.dice.below(6) as u32,
                 clamp: None,
                 split: 1 + self.dice.below(3) as u32,
-            },
+                reuse: self.dice.one_of(&PathSettings::REUSES),
+            }),
             5 => Integrator::AmbientOcclusion { distance: self.option(Self::size) },
             6 => Integrator::Normals,
             7 => self.dice.one_of(&[Integrator::Depth, Integrator::Uv]),

@@ -7,6 +7,9 @@
 //! the sum is over all that see y. That is never more than what x, had it found y itself, would make of it: light that is near
 //! to one pixel makes no others bright.
 //!
+//! The sum is right only if all who see a junction would have found it as they are taken to, so whoever may not have, has no part:
+//! who sees it from behind a hole, or so flatly that it is shaded by another normal. Its own path then goes on by itself.
+//!
 //! A picture is as true as without, and has far less noise where most light comes by way of other things; for a path costs much
 //! more than a ray that asks whether two points see each other. What is left of the noise is alike in the pixels of a block.
 
@@ -16,6 +19,7 @@ use crate::compile::CompiledScene;
 use crate::frame::Frame;
 use crate::integrators::Together;
 use crate::observer::{Observer, RayKind, Source};
+use crate::shading::Shading;
 use arrayvec::ArrayVec;
 use durer_geometry::{LANES, Packet, Ray};
 use durer_math::{DVec3, Rgb};
@@ -36,7 +40,7 @@ pub(super) fn trace<O: Observer>(tracer: &PathTracer, scene: &CompiledScene, sam
         Member { path, paused, segments }
     });
     let mut members: Vec<Member<'_, O>> = begun.collect();
-    let mut junctions = Vec::with_capacity(members.len() * tracer.split as usize);
+    let mut junctions = Vec::with_capacity(members.len() * tracer.0.split as usize);
     for (index, member) in members.iter_mut().enumerate() {
         member.go_on(index, &mut junctions);
     }
@@ -47,10 +51,15 @@ pub(super) fn trace<O: Observer>(tracer: &PathTracer, scene: &CompiledScene, sam
         if junction.lights.iter().all(|(_, light)| light.is_black()) {
             continue;
         }
-        junction.look(scene, &views, &mut seen);
-        let density: f64 = seen.iter().map(|seen| seen.density).sum::<f64>() * f64::from(tracer.split);
+        let member = &mut members[junction.member];
+        if !junction.look(scene, &views, &mut seen) {
+            member.path.add_own(junction);
+            continue;
+        }
+        let density: f64 = seen.iter().map(|seen| seen.density).sum::<f64>() * f64::from(tracer.0.split);
         for &Seen { member, way, scattered, area, .. } in &seen {
-            let light = junction.toward(way.direction) * scattered * ((area / density) as f32);
+            let light =
+                junction.toward(junction.frame.to_local(-way.direction)) * scattered * ((area / density) as f32);
             members[member].path.add_reused(way, light);
         }
     }
@@ -78,16 +87,17 @@ struct View<'a> {
 }
 
 /// A surface that a path has met, and the light that arrives there.
-struct Junction {
+struct Junction<'a> {
     /// The number of the sample whose path it was, …
     member: usize,
     /// … and of the segment that led here.
     depth: u32,
-    /// Where shadow rays end, on the side that the path came from.
-    point: DVec3,
-    /// The unit normal of the surface on that side.
-    face: DVec3,
+    /// What light from here counts there by that path alone.
+    weight: Rgb,
+    shading: Shading<'a>,
     frame: Frame,
+    /// Where the path came from, in the frame.
+    out: DVec3,
     bsdf: Bsdf,
     /// Where it comes from, in the frame, and radiance over density.
     lights: ArrayVec<(DVec3, Rgb), 2>,
@@ -108,14 +118,14 @@ struct Seen {
 
 impl<'a, O: Observer> Member<'a, O> {
     /// Goes on from the vertex, if there is one.
-    fn go_on(&mut self, index: usize, junctions: &mut Vec<Junction>) {
+    fn go_on(&mut self, index: usize, junctions: &mut Vec<Junction<'a>>) {
         let Some(paused) = &self.paused else { return };
         let (path, vertex) = (&mut self.path, paused.vertex());
         if !path.can_reuse_at(&vertex) {
             path.branch(&vertex);
             return;
         }
-        let ways = path.tracer.split;
+        let ways = path.tracer.0.split;
         let (sampler, state) = (path.sampler, path.state);
         path.share = 1.0 / ways as f32;
         for number in 0..ways {
@@ -126,6 +136,9 @@ impl<'a, O: Observer> Member<'a, O> {
             if path.turn(&vertex, ways).is_none() {
                 continue;
             }
+            if !path.has_spread_since(state.depth) {
+                path.pause = Pause::Nowhere;
+            }
             path.state.met += 1;
             let segments = path.follow(crate::holes::Known::Nothing);
             if let Some(found) = path.paused.take() {
@@ -133,7 +146,7 @@ impl<'a, O: Observer> Member<'a, O> {
             }
             path.end_rays(segments);
         }
-        (path.state, path.sampler, path.share) = (state, sampler, 1.0 / ways as f32);
+        (path.state, path.sampler, path.media) = (state, sampler, Default::default());
     }
 
     fn view(&mut self, index: usize) -> Option<View<'a>> {
@@ -153,7 +166,15 @@ impl<'a, O: Observer> Path<'a, O> {
 
     /// True if light that arrives here may be seen by others.
     pub(super) fn can_be_reused_from(&self, vertex: &Vertex<'_, '_>) -> bool {
-        self.can_reuse() && !vertex.shading.bounds_medium && vertex.bsdf.is_broad()
+        // All find what is but partly there as often, but what a colored part of it gives is known to the path alone.
+        let is_evenly_there = vertex.shading.opacity.is_none_or(|Rgb { r, g, b }| r == g && g == b);
+        self.can_reuse() && !vertex.shading.bounds_medium && vertex.bsdf.is_broad() && is_evenly_there
+    }
+
+    /// True if the surface from which the last segment comes, the end of one of this depth, might have sent it anywhere: not as
+    /// mirrors do, nor straight on.
+    fn has_spread_since(&self, depth: u32) -> bool {
+        self.state.depth > depth && self.state.aimed.is_some()
     }
 
     /// True in empty space.
@@ -162,7 +183,7 @@ impl<'a, O: Observer> Path<'a, O> {
     }
 
     /// Finds out what light arrives at a surface, by aiming and by going on. What may not be seen by others is added up.
-    fn junction(&mut self, member: usize, found: &Vertex<'_, 'a>) -> Junction {
+    fn junction(&mut self, member: usize, found: &Vertex<'_, 'a>) -> Junction<'a> {
         let mut lights = ArrayVec::new();
         if let Some(arriving) = self.arriving(found, 1) {
             let kept = found.shading.kept(found.frame.to_world(arriving.toward)) as f32;
@@ -173,7 +194,7 @@ impl<'a, O: Observer> Path<'a, O> {
         if self.turn(found, 1).is_some() {
             self.pause = Pause::Nowhere;
             self.state.met += 1;
-            match self.state.aimed {
+            match self.state.aimed.filter(|_| self.has_spread_since(depth)) {
                 Some(aimed) => {
                     let direction = self.state.ray.direction;
                     let counts = found.shading.kept(direction) / aimed.pdf;
@@ -192,9 +213,10 @@ impl<'a, O: Observer> Path<'a, O> {
         Junction {
             member,
             depth,
-            point: found.receiver.point,
-            face: found.shading.face(),
+            weight,
+            shading: *found.shading,
             frame: *found.frame,
+            out: found.out,
             bsdf: *found.bsdf,
             lights,
         }
@@ -217,24 +239,39 @@ impl<'a, O: Observer> Path<'a, O> {
         self.add(Source::Reused, light);
         self.observer.ray_ends();
     }
+
+    /// Adds light from a junction that nobody else makes use of.
+    fn add_own(&mut self, junction: &Junction<'_>) {
+        let weight = std::mem::replace(&mut self.state.weight, junction.weight);
+        let Shading { surface, direction, .. } = junction.shading;
+        self.add_reused(Ray { origin: surface.point, direction: -direction }, junction.toward(junction.out));
+        self.state.weight = weight;
+    }
 }
 
-impl Junction {
-    /// From which vertices it is seen.
-    fn look(&self, scene: &CompiledScene, views: &[View<'_>], seen: &mut Vec<Seen>) {
+impl Junction<'_> {
+    /// Finds from which vertices it is seen; false if not from that of its own path.
+    fn look(&self, scene: &CompiledScene, views: &[View<'_>], seen: &mut Vec<Seen>) -> bool {
         seen.clear();
         seen.extend(views.iter().filter_map(|view| self.from(view)));
         let mut at = 0;
         let mut is_dark = [false; 64];
+        let Shading { surface, .. } = self.shading;
+        let before = surface.point + self.shading.face() * surface.offset;
         for chunk in seen.chunks(LANES) {
-            let rays: ArrayVec<Ray, LANES> = chunk.iter().map(|seen| seen.way).collect();
             let mut reach = [0.0; LANES];
-            for (reach, seen) in reach.iter_mut().zip(chunk) {
-                *reach = (self.point - seen.way.origin).length();
-            }
+            let rays: ArrayVec<Ray, LANES> = chunk
+                .iter()
+                .zip(&mut reach)
+                .map(|(seen, reach)| {
+                    let Ray { origin, .. } = seen.way;
+                    *reach = (before - origin).length();
+                    Ray { origin, direction: (before - origin) * (1.0 / *reach) }
+                })
+                .collect();
             let dark = scene.world.any_hits(&Packet::new(&rays), &reach, u32::MAX);
             for lane in 0..chunk.len() {
-                is_dark[at] = dark >> lane & 1 == 1 && chunk[lane].member != self.member;
+                is_dark[at] = dark >> lane & 1 == 1;
                 at += 1;
             }
         }
@@ -243,20 +280,22 @@ impl Junction {
             at += 1;
             !is_dark[at - 1]
         });
+        seen.iter().any(|seen| seen.member == self.member)
     }
 
     /// How a vertex sees it, if nothing is between.
     fn from(&self, view: &View<'_>) -> Option<Seen> {
         let Paused { shading, frame, out, bsdf, receiver, .. } = &view.paused;
-        let way = self.point - receiver.point;
+        let way = self.shading.surface.point - receiver.point;
         let squared = way.length_squared();
         let direction = way * (1.0 / squared.sqrt());
-        let area = -direction.dot(self.face) / squared;
+        let area = -direction.dot(self.shading.face()) / squared;
         let toward = frame.to_local(direction);
         // (Not if it is not a number, either.)
         if !(area > 0.0 && area.is_finite() && toward.z > 0.0)
             || view.depth + 1 != self.depth
             || shading.is_on_far_side(direction)
+            || !self.shading.is_same_along(direction)
         {
             return None;
         }
@@ -271,9 +310,8 @@ impl Junction {
         })
     }
 
-    /// Radiance against this direction.
-    fn toward(&self, direction: DVec3) -> Rgb {
-        let out = self.frame.to_local(-direction);
+    /// Radiance in this direction, in the frame.
+    fn toward(&self, out: DVec3) -> Rgb {
         let lights = self.lights.iter().map(|(toward, light)| self.bsdf.evaluate(out, *toward).0 * *light);
         lights.fold(Rgb::BLACK, |sum, light| sum + light)
     }

@@ -19,7 +19,7 @@ fn mean(scene: &CompiledScene, samples: u32) -> Rgb {
 
 /// With no more segments than this.
 fn mean_to(max_depth: u32, scene: &CompiledScene, samples: u32) -> Rgb {
-    let tracer = PathTracer { max_depth, clamp: None, split: 1 };
+    let tracer = PathTracer(durer_scene::PathSettings { max_depth, ..Default::default() });
     let ray = scene.camera.ray(durer_math::DVec2::new(320.0, 240.0));
     let estimates = (0..samples).map(|index| {
         let sampler = Sampler::new(0, (0, 0), index);
@@ -99,7 +99,7 @@ fn ball_under(sky: Background, material: Material) -> CompiledScene {
         ..Object::new(ObjectKind::Shape(Shape::Sphere { center: DVec3::new(0.3, 0.2, -5.0), radius: 1.0 }))
     };
     let render = RenderSettings {
-        integrator: durer_scene::Integrator::Path { max_depth: 1000, clamp: None, split: 1 },
+        integrator: durer_scene::Integrator::Path(durer_scene::PathSettings { max_depth: 1000, ..Default::default() }),
         ..Default::default()
     };
     let scene = Scene {
@@ -181,7 +181,10 @@ fn lamps_and_sky_shine_through_panes_alike() {
             }),
             lights: vec![lamp],
             render: RenderSettings {
-                integrator: durer_scene::Integrator::Path { max_depth: 2, clamp: None, split: 1 },
+                integrator: durer_scene::Integrator::Path(durer_scene::PathSettings {
+                    max_depth: 2,
+                    ..Default::default()
+                }),
                 ..Default::default()
             },
             ..Scene::default()
@@ -210,14 +213,17 @@ fn priorities_hide_what_is_inside() {
             camera: Some(Default::default()),
             lights: Vec::new(),
             render: RenderSettings {
-                integrator: durer_scene::Integrator::Path { max_depth: 100, clamp: None, split: 1 },
+                integrator: durer_scene::Integrator::Path(durer_scene::PathSettings {
+                    max_depth: 100,
+                    ..Default::default()
+                }),
                 ..Default::default()
             },
             ..Scene::default()
         };
         let scene = compile(&scene.check().unwrap());
         let ray = scene.camera.ray(durer_math::DVec2::new(330.0, 250.0));
-        let tracer = PathTracer { max_depth: 100, clamp: None, split: 1 };
+        let tracer = PathTracer(durer_scene::PathSettings { max_depth: 100, ..Default::default() });
         let mut counts = crate::observer::RayCounts::default();
         for sample in 0..4000 {
             tracer.radiance(&scene, &ray, Known::Nothing, &Sampler::new(0, (0, 0), sample), &mut counts);

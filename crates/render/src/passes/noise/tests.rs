@@ -21,7 +21,8 @@ fn scene(width: u32, height: u32, noise: f32, samples: u32) -> CompiledScene {
         picture: Picture { width, height, ..Picture::default() },
         ..Scene::default()
     };
-    scene.render.integrator = durer_scene::Integrator::Path { max_depth: 4, clamp: None, split: 1 };
+    scene.render.integrator =
+        durer_scene::Integrator::Path(durer_scene::PathSettings { max_depth: 4, ..Default::default() });
     (scene.render.samples, scene.render.noise) = (Some(samples), Some(noise));
     compile(&scene.check().unwrap())
 }

@@ -33,7 +33,10 @@ fn before(materials: Vec<Material>, objects: Vec<Object>) -> Scene {
         camera: Some(Camera { position: DVec3::ZERO, look_at: DVec3::NEG_Z, ..Default::default() }),
         lights: Vec::new(),
         render: RenderSettings {
-            integrator: durer_scene::Integrator::Path { max_depth: 100, clamp: None, split: 1 },
+            integrator: durer_scene::Integrator::Path(durer_scene::PathSettings {
+                max_depth: 100,
+                ..Default::default()
+            }),
             ..Default::default()
         },
         ..Scene::default()
@@ -88,7 +91,12 @@ fn fog_is_the_same_for_light_that_is_aimed_at() {
         scene.render.integrator = integrator;
         compile(&scene.check().unwrap())
     };
-    let aimed = mean_to(2, &scene(durer_scene::Integrator::Path { max_depth: 2, clamp: None, split: 1 }), 4000).g;
+    let aimed = mean_to(
+        2,
+        &scene(durer_scene::Integrator::Path(durer_scene::PathSettings { max_depth: 2, ..Default::default() })),
+        4000,
+    )
+    .g;
     // No integrator that aims, no emitters.
     let chance = mean_to(2, &scene(durer_scene::Integrator::Depth), 60_000).g;
     assert!((aimed / chance - 1.0).abs() < 0.03, "{aimed}, not {chance}");
@@ -136,7 +144,7 @@ fn what_is_not_there_leaves_fog_as_it_is() {
     ];
     let linear = |start, end| Some(Fog::Linear { color: Rgb::gray(0.125), start, end });
     let fogs = [linear(10.0, 30.0), linear(0.0, 25.0), exponential(15.0, 0.25)];
-    let path = durer_scene::Integrator::Path { max_depth: 20, clamp: None, split: 1 };
+    let path = durer_scene::Integrator::Path(durer_scene::PathSettings { max_depth: 20, ..Default::default() });
     for (fog, integrator) in fogs.iter().flat_map(|fog| [path, durer_scene::Integrator::Whitted].map(|i| (*fog, i))) {
         let seen = |objects: Vec<Object>, material: &Material| {
             let mut scene = before(vec![glowing(2.0), material.clone()], objects);
@@ -147,8 +155,8 @@ fn what_is_not_there_leaves_fog_as_it_is() {
             let ray = scene.camera.ray(durer_math::DVec2::new(300.0, 220.0));
             let (sampler, counts) = (Sampler::new(0, (0, 0), 0), &mut crate::observer::RayCounts::default());
             match integrator {
-                durer_scene::Integrator::Path { max_depth, clamp, split } => {
-                    PathTracer { max_depth, clamp, split }.radiance(&scene, &ray, Known::Nothing, &sampler, counts)
+                durer_scene::Integrator::Path(settings) => {
+                    PathTracer(settings).radiance(&scene, &ray, Known::Nothing, &sampler, counts)
                 }
                 _ => Whitted.radiance(&scene, &ray, Known::Nothing, &sampler, counts),
             }
@@ -313,10 +321,14 @@ fn the_clamp_holds_only_what_comes_by_several_surfaces() {
     let materials = vec![glowing(10.0), mirror, matte(Rgb::WHITE)];
     let seen = |objects: Vec<Object>| {
         let mut scene = before(materials.clone(), objects);
-        scene.render.integrator = durer_scene::Integrator::Path { max_depth: 20, clamp: Some(1.0), split: 1 };
+        scene.render.integrator = durer_scene::Integrator::Path(durer_scene::PathSettings {
+            max_depth: 20,
+            clamp: Some(1.0),
+            ..Default::default()
+        });
         let scene = compile(&scene.check().unwrap());
         let ray = scene.camera.ray(durer_math::DVec2::new(320.0, 240.0));
-        let tracer = PathTracer { max_depth: 20, clamp: Some(1.0), split: 1 };
+        let tracer = PathTracer(durer_scene::PathSettings { max_depth: 20, clamp: Some(1.0), ..Default::default() });
         let mut counts = crate::observer::RayCounts::default();
         let each =
             |sample| tracer.radiance(&scene, &ray, Known::Nothing, &Sampler::new(0, (0, 0), sample), &mut counts);

@@ -56,10 +56,16 @@ fn floor_at(scene: &CompiledScene, integrator: &impl Integrator, place: DVec2, s
 fn both_agree(make: impl Fn(durer_scene::Integrator) -> Scene, places: &[DVec2]) {
     let compiled = |integrator| compile(&make(integrator).check().unwrap());
     let classic = compiled(durer_scene::Integrator::Whitted);
-    let true_one = compiled(durer_scene::Integrator::Path { max_depth: 2, clamp: None, split: 1 });
+    let true_one =
+        compiled(durer_scene::Integrator::Path(durer_scene::PathSettings { max_depth: 2, ..Default::default() }));
     for &place in places {
         let found = floor_at(&classic, &Whitted, place, 64);
-        let expected = floor_at(&true_one, &PathTracer { max_depth: 2, clamp: None, split: 1 }, place, 4096);
+        let expected = floor_at(
+            &true_one,
+            &PathTracer(durer_scene::PathSettings { max_depth: 2, ..Default::default() }),
+            place,
+            4096,
+        );
         assert!((found - expected).abs() < 0.02 * expected + 1e-3, "{found}, not {expected}, at {place}");
     }
 }
