@@ -79,6 +79,11 @@ impl Sampler {
         Sampler { index: index.reverse_bits(), ..*self }
     }
 
+    /// Others for the same sample, that have nothing to do with these.
+    pub(crate) fn another(&self) -> Sampler {
+        Sampler { key: mix(self.key), ..*self }
+    }
+
     /// A number from 0 to less than 1, for the surface that the ray of this depth has hit (0 before there is any).
     pub(crate) fn one(&self, depth: u32, purpose: Purpose) -> f64 {
         self.at(depth, purpose).x

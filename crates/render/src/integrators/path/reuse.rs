@@ -10,6 +10,10 @@
 //! The sum is right only if all who see a junction would have found it as they are taken to, so whoever may not have, has no part:
 //! who sees it from behind a hole, or so flatly that it is shaded by another normal. Its own path then goes on by itself.
 //!
+//! Where samples are split, the first way is a path like this, and the others only look for what cannot be shared: emitters, and
+//! what lies in glass, mirrors and polished metal. Where they end at a surface that could be a junction, nothing is added: the
+//! block has junctions enough.
+//!
 //! A picture is as true as without, and has far less noise where most light comes by way of other things; for a path costs much
 //! more than a ray that asks whether two points see each other. What is left of the noise is alike in the pixels of a block.
 
@@ -56,7 +60,7 @@ pub(super) fn trace<O: Observer>(tracer: &PathTracer, scene: &CompiledScene, sam
             member.path.add_own(junction);
             continue;
         }
-        let density: f64 = seen.iter().map(|seen| seen.density).sum::<f64>() * f64::from(tracer.0.split);
+        let density: f64 = seen.iter().map(|seen| seen.density).sum::<f64>();
         for &Seen { member, way, scattered, area, .. } in &seen {
             let light =
                 junction.toward(junction.frame.to_local(-way.direction)) * scattered * ((area / density) as f32);
@@ -127,9 +131,9 @@ impl<'a, O: Observer> Member<'a, O> {
         }
         let ways = path.tracer.0.split;
         let (sampler, state) = (path.sampler, path.state);
-        path.share = 1.0 / ways as f32;
         for number in 0..ways {
-            path.sampler = sampler.split(number, ways);
+            path.sampler = if number == 0 { sampler } else { sampler.another().split(number, ways) };
+            path.share = 1.0 / ways as f32;
             path.state = State { weight: state.weight * path.share, ..state };
             path.media = Default::default();
             path.pause = Pause::AfterSurfaces(state.met + 1);
@@ -141,7 +145,9 @@ impl<'a, O: Observer> Member<'a, O> {
             }
             path.state.met += 1;
             let segments = path.follow(crate::holes::Known::Nothing);
-            if let Some(found) = path.paused.take() {
+            // Junctions are those of the first way, with its density alone.
+            if let Some(found) = path.paused.take().filter(|_| number == 0) {
+                (path.share, path.state.weight) = (1.0, path.state.weight * ways as f32);
                 junctions.push(path.junction(index, &found.vertex()));
             }
             path.end_rays(segments);
