@@ -51,11 +51,14 @@ pub(super) fn trace<O: Observer>(tracer: &PathTracer, scene: &CompiledScene, sam
         if junction.lights.iter().all(|(_, light)| light.is_black()) {
             continue;
         }
-        let member = &mut members[junction.member];
-        if !junction.look(scene, &views, &mut seen) {
-            member.path.add_own(junction);
+        let is_shared = junction.look(scene, &views, &mut seen);
+        seen.iter().for_each(|seen| members[seen.member].path.observer.shadow_ray());
+        if !is_shared {
+            let from = views.iter().find(|view| view.member == junction.member);
+            from.into_iter().for_each(|view| members[view.member].path.add_own(junction, view));
             continue;
         }
+        seen.retain(|seen| !seen.is_dark);
         let density: f64 = seen.iter().map(|seen| seen.density).sum::<f64>() * f64::from(tracer.0.split);
         for &Seen { member, way, scattered, area, .. } in &seen {
             let light =
@@ -114,6 +117,8 @@ struct Seen {
     area: f64,
     /// With which the vertex finds such points, per area.
     density: f64,
+    /// Something is between.
+    is_dark: bool,
 }
 
 impl<'a, O: Observer> Member<'a, O> {
@@ -241,10 +246,10 @@ impl<'a, O: Observer> Path<'a, O> {
     }
 
     /// Adds light from a junction that nobody else makes use of.
-    fn add_own(&mut self, junction: &Junction<'_>) {
+    fn add_own(&mut self, junction: &Junction<'_>, view: &View<'_>) {
         let weight = std::mem::replace(&mut self.state.weight, junction.weight);
-        let Shading { surface, direction, .. } = junction.shading;
-        self.add_reused(Ray { origin: surface.point, direction: -direction }, junction.toward(junction.out));
+        let way = Ray { origin: view.paused.receiver.point, direction: junction.shading.direction };
+        self.add_reused(way, junction.toward(junction.out));
         self.state.weight = weight;
     }
 }
@@ -254,11 +259,9 @@ impl Junction<'_> {
     fn look(&self, scene: &CompiledScene, views: &[View<'_>], seen: &mut Vec<Seen>) -> bool {
         seen.clear();
         seen.extend(views.iter().filter_map(|view| self.from(view)));
-        let mut at = 0;
-        let mut is_dark = [false; 64];
         let Shading { surface, .. } = self.shading;
         let before = surface.point + self.shading.face() * surface.offset;
-        for chunk in seen.chunks(LANES) {
+        for chunk in seen.chunks_mut(LANES) {
             let mut reach = [0.0; LANES];
             let rays: ArrayVec<Ray, LANES> = chunk
                 .iter()
@@ -270,17 +273,11 @@ impl Junction<'_> {
                 })
                 .collect();
             let dark = scene.world.any_hits(&Packet::new(&rays), &reach, u32::MAX);
-            for lane in 0..chunk.len() {
-                is_dark[at] = dark >> lane & 1 == 1;
-                at += 1;
+            for (lane, seen) in chunk.iter_mut().enumerate() {
+                seen.is_dark = dark >> lane & 1 == 1;
             }
         }
-        let mut at = 0;
-        seen.retain(|_| {
-            at += 1;
-            !is_dark[at - 1]
-        });
-        seen.iter().any(|seen| seen.member == self.member)
+        seen.iter().any(|seen| seen.member == self.member && !seen.is_dark)
     }
 
     /// How a vertex sees it, if nothing is between.
@@ -307,6 +304,7 @@ impl Junction<'_> {
             scattered,
             area,
             density: pdf * area,
+            is_dark: false,
         })
     }
 
