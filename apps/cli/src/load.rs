@@ -4,7 +4,9 @@ use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::{Phase, Show};
 use clap::Args;
-use durer::{CheckedScene, CompiledScene, Diagnostics, Exceeded, Limits, LoadOptions, Loaded, SimdLevel, Sources};
+use durer::{
+    CheckedScene, CompiledScene, Diagnostics, Exceeded, Limits, LoadOptions, Loaded, Overlay, Severity, SimdLevel,
+};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -31,23 +33,25 @@ impl SceneArgs {
         self.path.file_name().unwrap_or_default().to_string_lossy().into_owned()
     }
 
-    /// Loads the scene. Prints its warnings, or what is wrong with it.
-    pub(crate) fn load(&self, show: Show) -> Result<CheckedScene, Failure> {
-        self.load_with_sources(show).map(|(scene, _)| scene)
+    /// Loads the scene as its file has it. Prints its warnings, or what is wrong with it.
+    pub(crate) fn load(&self, show: Show) -> Result<Loaded, Failure> {
+        self.load_under(&(), show)
     }
 
-    /// Loads the scene, and tells what files it named. Prints its warnings, or what is wrong with it.
-    pub(crate) fn load_with_sources(&self, show: Show) -> Result<(CheckedScene, Sources), Failure> {
-        match self.try_load(show)? {
+    /// Loads the scene with settings that win over those of its file. Prints its warnings, or what is wrong with either.
+    pub(crate) fn load_under(&self, overlay: &dyn Overlay, show: Show) -> Result<Loaded, Failure> {
+        match self.try_load(overlay, show)? {
             Ok(loaded) => {
                 if !loaded.warnings.is_empty() {
                     tell(&loaded.warnings);
                 }
-                Ok((loaded.scene, loaded.sources))
+                Ok(loaded)
             }
             Err(diagnostics) => {
                 tell(&diagnostics);
-                Err(Failure::Told(Exit::Scene))
+                let mut errors = diagnostics.list.iter().filter(|one| one.severity == Severity::Error);
+                let is_of_options = errors.all(|one| one.setting.is_some());
+                Err(Failure::Told(if is_of_options { Exit::Usage } else { Exit::Scene }))
             }
         }
     }
@@ -56,10 +60,10 @@ impl SceneArgs {
     ///
     /// # Errors
     /// The outer one if the file cannot be read, the inner one if it is wrong.
-    pub(crate) fn try_load(&self, show: Show) -> Result<Result<Loaded, Diagnostics>, Failure> {
+    pub(crate) fn try_load(&self, overlay: &dyn Overlay, show: Show) -> Result<Result<Loaded, Diagnostics>, Failure> {
         readable(&self.path)?;
         let _phase = Phase::begin("reading", &self.name(), show);
-        Ok(durer::load_file(&self.path, &self.options()))
+        Ok(durer::load_file_under(&self.path, &self.options(), overlay))
     }
 
     /// Makes a loaded scene ready for rays, unless it asks for more than it may.

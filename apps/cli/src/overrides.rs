@@ -1,13 +1,15 @@
-//! Settings of the scene that the command line may change. The changed scene is checked again, so limits hold.
+//! Settings of the scene that the command line may change: they are laid over those of the file before it is checked.
 
 mod light;
 
 use crate::exit::Failure;
+use crate::load::SceneArgs;
 use crate::output;
+use crate::progress::Show;
 use clap::{Args, ValueEnum};
-use durer::CheckedScene;
 use durer::imaging::Transfer;
-use durer::scene::{Antialias, Integrator, Picture, PixelFilter, Problem, Scene, Step, Trees};
+use durer::scene::{Antialias, Integrator, Picture, PixelFilter, Place, RenderSettings, Step, Trees};
+use durer::{Loaded, Overlay};
 use light::Light;
 
 /// Settings that win over those of the scene file.
@@ -78,26 +80,8 @@ enum TreesArg {
     ManyRays,
 }
 
-impl Overrides {
-    /// The scene with these settings in place of its own.
-    pub(crate) fn apply(&self, scene: CheckedScene) -> Result<CheckedScene, Failure> {
-        let known = scene.remarks();
-        let mut scene = scene.into_scene();
-        self.change(&mut scene);
-        let checked = scene.check().map_err(|problems| Failure::usage(self.describe(&problems)))?;
-        self.tell_meaningless(&checked.scene().render.integrator);
-        if self.light.chooses_integrator() {
-            // Those that the scene itself gave rise to have been told when it was loaded.
-            for remark in checked.remarks().iter().filter(|remark| !known.contains(remark)) {
-                let help = remark.help.as_ref().map_or(String::new(), |help| format!(" ({help})"));
-                output::warning(&format!("{}{help}", remark.message));
-            }
-        }
-        Ok(checked)
-    }
-
-    fn change(&self, scene: &mut Scene) {
-        let Scene { picture, render, .. } = scene;
+impl Overlay for Overrides {
+    fn lay_over(&self, picture: &mut Picture, render: &mut RenderSettings) {
         (picture.width, picture.height) = self.size.of(picture);
         self.light.change_render(render);
         self.light.change_picture(picture);
@@ -124,6 +108,33 @@ impl Overrides {
         };
     }
 
+    fn name_of(&self, place: &Place, render: &RenderSettings) -> Option<String> {
+        let field = |at: usize| match place.steps.get(at) {
+            Some(Step::Field(name)) => *name,
+            Some(Step::Index(_) | Step::Material(_) | Step::Texture(_) | Step::Image(_)) | None => "",
+        };
+        let is_path = matches!(render.integrator, Integrator::Path { .. });
+        let option = match (field(0), field(1)) {
+            ("picture", at) => self.size.name_of(at).or_else(|| self.light.name_of(at)),
+            ("render", "max_depth") => self.max_depth.filter(|_| !is_path).map(|_| "--max-depth"),
+            ("render", "integrator") if field(3) == "max_depth" && self.max_depth.is_some() => Some("--max-depth"),
+            ("render", "antialias") => self.antialias.map(|_| "--antialias"),
+            ("render", "filter") => self.filter.map(|_| "--filter"),
+            ("render", at) => self.light.name_of(at),
+            _ => None,
+        };
+        option.map(str::to_owned)
+    }
+}
+
+impl Overrides {
+    /// Loads the scene with these settings in place of its own. Prints warnings, or what is wrong.
+    pub(crate) fn load(&self, scene: &SceneArgs, show: Show) -> Result<Loaded, Failure> {
+        let loaded = scene.load_under(self, show)?;
+        self.tell_meaningless(&loaded.scene.scene().render.integrator);
+        Ok(loaded)
+    }
+
     /// Warns of options that change nothing.
     fn tell_meaningless(&self, integrator: &Integrator) {
         let mut options = self.light.meaningless_to(integrator);
@@ -141,53 +152,16 @@ impl Overrides {
             output::warning(&format!("{option} means nothing to `{}`, and is not followed", integrator.word()));
         }
     }
-
-    fn describe(&self, problems: &[Problem]) -> String {
-        let lines: Vec<String> = problems
-            .iter()
-            .map(|problem| {
-                let help = problem.help.as_ref().map_or(String::new(), |help| format!(" ({help})"));
-                format!("{}: {}{help}", self.option(problem), problem.message)
-            })
-            .collect();
-        lines.join("\n       ")
-    }
-
-    /// The option that a problem comes from.
-    fn option(&self, problem: &Problem) -> &'static str {
-        let field = |at: usize| match problem.place.steps.get(at) {
-            Some(Step::Field(name)) => *name,
-            Some(Step::Index(_) | Step::Material(_) | Step::Texture(_) | Step::Image(_)) | None => "",
-        };
-        match (field(0), field(1)) {
-            ("picture", "height") if self.size.height.is_none() => "--width, from which the height follows",
-            ("picture", "width") if self.size.width.is_none() => "--height, from which the width follows",
-            ("picture", "exposure") => "--exposure",
-            ("picture", "height") => "--height",
-            ("picture", "width") => "--width",
-            ("picture", _) => match (self.size.width, self.size.height) {
-                (Some(_), Some(_)) => "--width and --height",
-                (None, Some(_)) => "--height",
-                (_, None) => "--width",
-            },
-            ("render", "max_depth") => "--max-depth",
-            ("render", "filter") => "--filter",
-            ("render", "integrator") if field(3) == "max_depth" && self.max_depth.is_some() => "--max-depth",
-            ("render", "integrator") => "--integrator",
-            ("render", "samples") => "--samples",
-            ("render", "noise") => "--noise",
-            ("render", "time") => "--time",
-            ("render", "light_samples") => "--light-samples",
-            ("render", _) => "--antialias",
-            _ => "the scene with these options",
-        }
-    }
 }
 
 impl Size {
     fn of(&self, picture: &Picture) -> (u32, u32) {
         let scaled = |length: u32, by: u32, of: u32| {
-            let rounded = (u64::from(length) * u64::from(by) + u64::from(of) / 2) / u64::from(of.max(1));
+            // A picture without any length has no shape to keep; the check says so of what is 0.
+            if length == 0 || of == 0 {
+                return length;
+            }
+            let rounded = (u64::from(length) * u64::from(by) + u64::from(of) / 2) / u64::from(of);
             u32::try_from(rounded).unwrap_or(u32::MAX).max(1)
         };
         match (self.width, self.height) {
@@ -195,6 +169,20 @@ impl Size {
             (Some(width), None) => (width, scaled(picture.height, width, picture.width)),
             (None, Some(height)) => (scaled(picture.width, height, picture.height), height),
             (None, None) => (picture.width, picture.height),
+        }
+    }
+
+    /// What gives this field of the picture, or the picture as a whole if there is none; `None` if the file does.
+    fn name_of(&self, field: &str) -> Option<&'static str> {
+        match (field, self.width, self.height) {
+            ("width", Some(_), _) => Some("--width"),
+            ("width", None, Some(_)) => Some("--height, from which the width follows"),
+            ("height", _, Some(_)) => Some("--height"),
+            ("height", Some(_), None) => Some("--width, from which the height follows"),
+            ("", Some(_), Some(_)) => Some("--width and --height"),
+            ("", Some(_), None) => Some("--width"),
+            ("", None, Some(_)) => Some("--height"),
+            _ => None,
         }
     }
 }
@@ -304,5 +292,9 @@ mod tests {
         assert_eq!(size(Some(7), Some(9)), (7, 9));
         assert_eq!(size(Some(1), None), (1, 1));
         assert_eq!(size(None, Some(u32::MAX)), (u32::MAX, u32::MAX));
+        // Nothing is made up for a side that a file gives as 0.
+        let flat = Picture { width: 0, ..Picture::default() };
+        assert_eq!(Size { width: None, height: Some(96) }.of(&flat), (0, 96));
+        assert_eq!(Size { width: Some(96), height: None }.of(&flat), (96, 480));
     }
 }

@@ -28,8 +28,8 @@ pub use checkpoint::{
 };
 pub use durer_formats::{
     AssetError, Assets, Diagnostic, Diagnostics, Exceeded, FolderAssets, Limit, Limits, LoadOptions, Loaded,
-    MemoryAssets, NoAssets, Related, Severity, Sources, json_schema, load_bytes, load_file, load_str,
-    reference_markdown, scene_fingerprint, to_yaml,
+    MemoryAssets, NoAssets, Overlay, Related, Severity, Sources, json_schema, load_bytes, load_file, load_file_under,
+    load_str, reference_markdown, scene_fingerprint, to_yaml,
 };
 pub use durer_imaging as imaging;
 pub use durer_math as math;

@@ -52,7 +52,8 @@ impl AssetError {
                 Some(format!("if you trust this scene, allow the folder: `--allow-path {folder}`"))
             }
             AssetError::Exceeded(exceeded) => Some(exceeded.help()),
-            AssetError::TooLarge(_) | AssetError::NotAFile | AssetError::Unavailable | AssetError::Io(_) => None,
+            AssetError::NotAFile => Some("name a file, not a folder or a device".to_owned()),
+            AssetError::TooLarge(_) | AssetError::Unavailable | AssetError::Io(_) => None,
         }
     }
 }

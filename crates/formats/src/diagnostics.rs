@@ -4,6 +4,7 @@ mod json;
 mod show;
 
 use crate::native::tree::Span;
+use durer_scene::Problem;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -32,6 +33,9 @@ pub struct Diagnostic {
     pub column: usize,
     /// The bytes of the file that it is about.
     pub span: Range<usize>,
+    /// What an [`Overlay`](crate::Overlay) calls the setting that it is about, which is not in the file: line, column and span
+    /// mean nothing then. The message begins with it.
+    pub setting: Option<String>,
     /// What to say right beside the place.
     pub label: Option<String>,
     /// What to do about it.
@@ -71,6 +75,7 @@ pub(crate) struct Complaint {
     severity: Severity,
     span: Span,
     message: String,
+    setting: Option<String>,
     label: Option<String>,
     help: Option<String>,
     related: Vec<(Span, String)>,
@@ -78,8 +83,14 @@ pub(crate) struct Complaint {
 
 impl Complaint {
     pub(crate) fn error(span: Span, message: impl Into<String>) -> Complaint {
-        let (label, help, related) = (None, None, Vec::new());
-        Complaint { severity: Severity::Error, span, message: message.into(), label, help, related }
+        let (setting, label, help, related) = (None, None, None, Vec::new());
+        Complaint { severity: Severity::Error, span, message: message.into(), setting, label, help, related }
+    }
+
+    /// An error in a setting that is not in the file, but in what is laid over it, which calls it so.
+    pub(crate) fn of_overlay(name: String, problem: Problem) -> Complaint {
+        let complaint = Complaint::error(Span::default(), format!("{name}: {}", problem.message));
+        Complaint { setting: Some(name), ..complaint.maybe_help(problem.help) }
     }
 
     pub(crate) fn warning(span: Span, message: impl Into<String>) -> Complaint {
@@ -105,6 +116,9 @@ impl Complaint {
 
     /// Adds help that comes from a look at the line that it is about, if there is no help yet.
     pub(crate) fn help_from_line(self, source: &str, advise: impl Fn(&str) -> Option<String>) -> Complaint {
+        if self.setting.is_some() {
+            return self;
+        }
         let mut start = self.span.start.min(source.len());
         while !source.is_char_boundary(start) {
             start -= 1;
@@ -132,6 +146,7 @@ impl Complaint {
             line,
             column,
             span: self.span.start..self.span.end,
+            setting: self.setting,
             label: self.label,
             help: self.help,
             related: related.collect(),

@@ -10,6 +10,7 @@ mod diagnostics;
 mod limits;
 mod models;
 mod native;
+mod overlay;
 mod sources;
 
 pub use assets::memory::MemoryAssets;
@@ -17,11 +18,13 @@ pub use assets::{AssetError, Assets, FolderAssets, NoAssets};
 pub use diagnostics::{Diagnostic, Diagnostics, Related, Severity};
 pub use limits::{Exceeded, Limit, Limits};
 pub use native::{json_schema, reference_markdown, to_yaml};
+pub use overlay::Overlay;
 pub use sources::{Sources, scene_fingerprint};
 
 use assets::Metered;
 use diagnostics::Complaint;
-use durer_scene::CheckedScene;
+use durer_math::Fingerprint;
+use durer_scene::{CheckedScene, Picture, RenderSettings};
 use native::tree::Span;
 use sources::Remembering;
 use std::path::{Path, PathBuf};
@@ -44,6 +47,15 @@ pub struct Loaded {
     pub warnings: Diagnostics,
     /// The files that it named.
     pub sources: Sources,
+    /// The settings of the file itself, under those that were laid over them.
+    written: (Picture, RenderSettings),
+}
+
+impl Loaded {
+    /// The [`scene_fingerprint`] of the scene as its file has it: without what was laid over it.
+    pub fn fingerprint(&self) -> Fingerprint {
+        sources::fingerprint(native::write(self.scene.scene(), self.written), &self.sources)
+    }
 }
 
 /// Reads and checks the scene file at `path`; files that it names are looked for in its folder. A model file, as its
@@ -53,6 +65,19 @@ pub struct Loaded {
 ///
 /// Everything that is wrong with the file.
 pub fn load_file(path: impl AsRef<Path>, options: &LoadOptions) -> Result<Loaded, Diagnostics> {
+    load_file_under(path, options, &())
+}
+
+/// As [`load_file`], with settings that win over those of the file.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file under these settings, and with them.
+pub fn load_file_under(
+    path: impl AsRef<Path>,
+    options: &LoadOptions,
+    overlay: &dyn Overlay,
+) -> Result<Loaded, Diagnostics> {
     let path = path.as_ref();
     let name = path.display().to_string();
     let limit = if models::is_model_name(&name) { Limit::File } else { Limit::Scene };
@@ -64,7 +89,7 @@ pub fn load_file(path: impl AsRef<Path>, options: &LoadOptions) -> Result<Loaded
     let folder = path.parent().unwrap_or(Path::new(""));
     let assets = FolderAssets::new(folder);
     let assets = options.allowed_folders.iter().fold(assets, FolderAssets::allow);
-    load_bytes(&bytes, &name, &assets, &options.limits)
+    load(&bytes, &name, (&assets, &options.limits), overlay)
 }
 
 /// Reads and checks the scene in `bytes`, which messages call `name`; or a model, if the name ends as those of models do.
@@ -73,11 +98,20 @@ pub fn load_file(path: impl AsRef<Path>, options: &LoadOptions) -> Result<Loaded
 ///
 /// Everything that is wrong with it; among it that a scene is not UTF-8.
 pub fn load_bytes(bytes: &[u8], name: &str, assets: &dyn Assets, limits: &Limits) -> Result<Loaded, Diagnostics> {
+    load(bytes, name, (assets, limits), &())
+}
+
+fn load(
+    bytes: &[u8],
+    name: &str,
+    (assets, limits): (&dyn Assets, &Limits),
+    overlay: &dyn Overlay,
+) -> Result<Loaded, Diagnostics> {
     if models::is_model_name(name) {
-        return models::load(bytes, name, &Metered::new(assets, limits), limits);
+        return models::load(bytes, name, (&Metered::new(assets, limits), limits), overlay);
     }
     match std::str::from_utf8(bytes) {
-        Ok(text) => load_str(text, name, assets, limits),
+        Ok(text) => load_text(text, name, (assets, limits), overlay),
         Err(error) => {
             let end = bytes.len().min(error.valid_up_to() + 200);
             let shown = String::from_utf8_lossy(&bytes[..end]);
@@ -95,16 +129,25 @@ pub fn load_bytes(bytes: &[u8], name: &str, assets: &dyn Assets, limits: &Limits
 ///
 /// Everything that is wrong with it.
 pub fn load_str(text: &str, name: &str, assets: &dyn Assets, limits: &Limits) -> Result<Loaded, Diagnostics> {
+    load_text(text, name, (assets, limits), &())
+}
+
+fn load_text(
+    text: &str,
+    name: &str,
+    (assets, limits): (&dyn Assets, &Limits),
+    overlay: &dyn Overlay,
+) -> Result<Loaded, Diagnostics> {
     if text.len() as u64 > limits.max_bytes {
         let exceeded = Exceeded { limit: Limit::Scene, asked: Some(text.len() as u64), allowed: limits.max_bytes };
         let complaint = Complaint::error(Span::default(), format!("this file is too large: {exceeded}"));
         return Err(Diagnostics::new(vec![complaint.help(exceeded.help())], name, "", 1));
     }
     let assets = Remembering::new(assets);
-    let (scene, complaints) = native::load(text, &Metered::new(&assets, limits), limits);
+    let (scene, complaints) = native::load(text, (&Metered::new(&assets, limits), limits), overlay);
     let diagnostics = Diagnostics::new(complaints, name, text, limits.max_diagnostics);
     match scene {
-        Some(scene) => Ok(Loaded { scene, warnings: diagnostics, sources: assets.into_sources() }),
+        Some((scene, written)) => Ok(Loaded { scene, warnings: diagnostics, sources: assets.into_sources(), written }),
         None => Err(diagnostics),
     }
 }

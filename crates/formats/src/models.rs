@@ -97,6 +97,9 @@ impl fmt::Display for FilePlace {
     }
 }
 
+/// What to do about a file that ends too early.
+const LOST: &str = "part of it has been lost: copy or download it again";
+
 /// The formats of models.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Format {
@@ -150,7 +153,7 @@ pub(crate) fn is_model_name(file: &str) -> bool {
 /// The first thing that is wrong with it.
 pub(crate) fn read(file: &str, bytes: &[u8], assets: &dyn Assets, limits: &Limits) -> Result<Model, ModelError> {
     if bytes.is_empty() {
-        return Err(ModelError::new("this file is empty"));
+        return Err(ModelError::new("this file is empty").help(LOST));
     }
     // Some editors put a byte order mark before a text.
     let bytes = match bytes.strip_prefix(b"\xef\xbb\xbf") {

@@ -40,18 +40,25 @@ pub use reference::reference_markdown;
 pub use schema::json_schema;
 
 use crate::diagnostics::Complaint;
-use crate::{Assets, Limits};
+use crate::{Assets, Limits, Overlay};
 use decode::Decoder;
-use durer_scene::{CheckedScene, Scene};
+use durer_scene::{CheckedScene, Picture, Place, RenderSettings, Scene, Step};
 use tree::Span;
 
+/// A scene, and the settings that its file has under those that were laid over them.
+type Read = (CheckedScene, (Picture, RenderSettings));
+
 /// Reads and checks a scene; complaints may be warnings only, and then there is a scene.
-pub(crate) fn load(text: &str, assets: &dyn Assets, limits: &Limits) -> (Option<CheckedScene>, Vec<Complaint>) {
-    let (scene, complaints) = load_tree(text, assets, limits);
+pub(crate) fn load(text: &str, files: (&dyn Assets, &Limits), overlay: &dyn Overlay) -> (Option<Read>, Vec<Complaint>) {
+    let (scene, complaints) = load_tree(text, files, overlay);
     (scene, complaints.into_iter().map(|complaint| complaint.help_from_line(text, hints::unquoted_color)).collect())
 }
 
-fn load_tree(text: &str, assets: &dyn Assets, limits: &Limits) -> (Option<CheckedScene>, Vec<Complaint>) {
+fn load_tree(
+    text: &str,
+    (assets, limits): (&dyn Assets, &Limits),
+    overlay: &dyn Overlay,
+) -> (Option<Read>, Vec<Complaint>) {
     let mut complaints = Vec::new();
     let Some(root) = parse::parse(text, limits, &mut complaints) else {
         if complaints.is_empty() {
@@ -68,15 +75,17 @@ fn load_tree(text: &str, assets: &dyn Assets, limits: &Limits) -> (Option<Checke
     decoder.complaints = complaints;
     file::read(&root, &mut decoder);
     images::warn_of_ignored_alpha(&mut decoder);
-    let checked = std::mem::take(&mut decoder.scene).check();
+    let mut scene = std::mem::take(&mut decoder.scene);
+    let written = (scene.picture, scene.render);
+    overlay.lay_over(&mut scene.picture, &mut scene.render);
+    let render = scene.render;
     let mut complaints = std::mem::take(&mut decoder.complaints);
-    match checked {
+    match scene.check() {
         Ok(scene) => {
-            if complaints.is_empty() && scene.scene().objects.is_empty() {
-                let span = root.get("objects").map_or(Span::default(), |(key, _)| key.span);
-                complaints.push(Complaint::warning(span, "nothing to see: the scene has no objects"));
-            }
-            settings::warn_of_unused(&root, &scene.scene().render.integrator, &mut complaints);
+            decoder.refuse_those_beyond(&mut complaints);
+            let place = Place { steps: ["render", "integrator"].map(Step::Field).into() };
+            let chosen_by = overlay.name_of(&place, &render);
+            settings::warn_of_unused(&root, &render.integrator, chosen_by.as_deref(), &mut complaints);
             // What is not there because it could not be read is not missed.
             if !complaints.iter().any(Complaint::is_error) {
                 for remark in scene.remarks() {
@@ -85,17 +94,23 @@ fn load_tree(text: &str, assets: &dyn Assets, limits: &Limits) -> (Option<Checke
                 }
             }
             let usable = !complaints.iter().any(Complaint::is_error);
-            (usable.then_some(scene), complaints)
+            (usable.then_some((scene, written)), complaints)
         }
         Err(problems) => {
             for problem in problems.into_iter().take(decode::MOST_COMPLAINTS) {
+                if let Some(name) = overlay.name_of(&problem.place, &render) {
+                    complaints.push(Complaint::of_overlay(name, problem));
+                    continue;
+                }
                 let span = place::span_of(&problem.place, &root, &decoder);
                 let doubtful = |near: &Span| near.start <= span.start && span.end <= near.end;
                 if decoder.doubtful.iter().any(doubtful) {
                     continue;
                 }
-                complaints.push(Complaint::error(span, problem.message).maybe_help(problem.help));
+                let message = decoder.as_written(problem.message, span);
+                complaints.push(Complaint::error(span, message).maybe_help(problem.help));
             }
+            decoder.refuse_those_beyond(&mut complaints);
             (None, complaints)
         }
     }
@@ -105,7 +120,12 @@ fn load_tree(text: &str, assets: &dyn Assets, limits: &Limits) -> (Option<Checke
 /// those without are written where they are used, or get a name if they are used several times. Meant for scenes that
 /// pass [`Scene::check`]; what is wrong with others is written as it is.
 pub fn to_yaml(scene: &Scene) -> String {
-    file::write(scene)
+    write(scene, (scene.picture, scene.render))
+}
+
+/// As [`to_yaml`], with these settings in place of its own.
+pub(crate) fn write(scene: &Scene, settings: (Picture, RenderSettings)) -> String {
+    file::write(scene, settings)
 }
 
 #[cfg(test)]

@@ -23,7 +23,11 @@ impl Sources {
 /// So it does not matter where the scene lies, how it is laid out, what it leaves to defaults, or what system this is;
 /// but a change of any number, or of any file that is named, does. Another version of durer may write another text.
 pub fn scene_fingerprint(scene: &Scene, sources: &Sources) -> Fingerprint {
-    let mut text = to_yaml(scene);
+    fingerprint(to_yaml(scene), sources)
+}
+
+/// The same of the text of a scene.
+pub(crate) fn fingerprint(mut text: String, sources: &Sources) -> Fingerprint {
     for (name, fingerprint) in sources.files() {
         text += &format!("\0{name}\0{fingerprint}");
     }

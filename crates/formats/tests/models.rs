@@ -32,6 +32,14 @@ fn mesh(scene: &Scene) -> &MeshData {
 }
 
 #[test]
+fn a_model_in_which_nothing_is_gets_one_warning() {
+    let empty = br#"{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "scene": 0, "nodes": [{}]}"#;
+    let warnings = from_bytes("a.gltf", empty).unwrap().warnings;
+    let messages: Vec<&str> = warnings.list.iter().map(|one| one.message.as_str()).collect();
+    assert_eq!(messages, ["in a.gltf: there is nothing to see in this model"]);
+}
+
+#[test]
 fn a_model_becomes_a_scene_with_all_that_lies_beside_it() {
     let folder = tempfile::tempdir().unwrap();
     let files: [(&str, &[u8]); 3] =

@@ -9,6 +9,7 @@
 //! * a ray splits into at most 100 million rays.
 
 mod bounds;
+mod emptiness;
 mod instances;
 mod lists;
 mod materials;

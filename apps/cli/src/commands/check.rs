@@ -33,14 +33,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     if arguments.json {
         return run_json(&arguments.scene);
     }
-    let scene = arguments.scene.load(Show::Progress)?;
+    let scene = arguments.scene.load(Show::Progress)?.scene;
     arguments.scene.admit(&scene)?;
     output::print(&format!("{}: fine: {}\n", arguments.scene.path.display(), summary(scene.scene())))?;
     Ok(Exit::Fine)
 }
 
 fn run_json(arguments: &SceneArgs) -> Result<Exit, Failure> {
-    let (diagnostics, fine) = match arguments.try_load(Show::Progress)? {
+    let (diagnostics, fine) = match arguments.try_load(&(), Show::Progress)? {
         Ok(loaded) => {
             arguments.admit(&loaded.scene)?;
             (loaded.warnings.to_json(), true)

@@ -65,7 +65,7 @@ struct Explained<'s> {
 /// Explains the pixel.
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     Interrupt::after(arguments.scene.time_limit());
-    let checked = arguments.overrides.apply(arguments.scene.load(Show::Progress)?)?;
+    let checked = arguments.overrides.load(&arguments.scene, Show::Progress)?.scene;
     let compiled = arguments.scene.compile(&checked, Show::Progress)?;
     let (x, y) = arguments.pixel;
     let scene = checked.scene();

@@ -79,7 +79,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let interrupt = Interrupt::after(arguments.scene.time_limit());
     let path = arguments.output_path();
     let format = target::format_of(&path)?;
-    let scene = arguments.overrides.apply(arguments.scene.load(arguments.show())?)?;
+    let scene = arguments.overrides.load(&arguments.scene, arguments.show())?.scene;
     let (width, height) = (scene.scene().picture.width, scene.scene().picture.height);
     let Counted { counts, summaries } = arguments.count(&scene, &interrupt)?;
     let scale = arguments.scale.unwrap_or_else(|| almost_all(&counts));

@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         return picture::run(&arguments.scene.path, arguments.json);
     }
     Interrupt::after(arguments.scene.time_limit());
-    let checked = arguments.scene.load(Show::Progress)?;
+    let checked = arguments.scene.load(Show::Progress)?.scene;
     let compiled = arguments.scene.compile(&checked, Show::Progress)?;
     let facts = Facts::of(checked.scene(), &compiled);
     match arguments.json {

@@ -60,9 +60,18 @@ impl Light {
         picture.tone_mapping = chosen.unwrap_or(picture.tone_mapping);
     }
 
-    /// True if it says what is computed.
-    pub(super) fn chooses_integrator(&self) -> bool {
-        self.integrator.is_some()
+    /// The option that gives this field of the scene's settings; `None` if the file does.
+    pub(super) fn name_of(&self, field: &str) -> Option<&'static str> {
+        let (option, is_given) = match field {
+            "integrator" => ("--integrator", self.integrator.is_some()),
+            "samples" => ("--samples", self.samples.is_some()),
+            "noise" => ("--noise", self.noise.is_some()),
+            "time" => ("--time", self.time.is_some()),
+            "light_samples" => ("--light-samples", self.light_samples.is_some()),
+            "exposure" => ("--exposure", self.exposure.is_some()),
+            _ => return None,
+        };
+        is_given.then_some(option)
     }
 
     /// The options that were given although they mean nothing to this integrator.

@@ -182,6 +182,75 @@ fn all_numbers_that_are_wrong_are_told_at_once() {
     workshop.fine("render room.yaml --integrator path --max-depth 200 --samples 1 -o a.png");
 }
 
+/// What is checked is what will be rendered.
+#[test]
+fn options_replace_what_the_check_refuses() {
+    let workshop = Workshop::new();
+    let clear = "objects: [sphere: {material: {transparency: 1, reflection: 1}}]\n";
+    workshop.put("deep.yaml", &format!("render: {{max_depth: 30, min_weight: 0}}\n{clear}"));
+    workshop.fails("render deep.yaml --width 8", 3, "deep.yaml:1:21");
+    workshop.fine("render deep.yaml --width 8 -o a.png --max-depth 5");
+    workshop.fine("render deep.yaml --width 8 -o a.png --integrator path --samples 1");
+    workshop.fine("explain deep.yaml --pixel 0,0 --width 8 --max-depth 2");
+    let more = "--max-depth: a ray may split into more than a hundred million rays";
+    workshop.fails("render deep.yaml --max-depth 40", 2, more);
+    // A scene that only the option makes too much: the depth is that of the file.
+    workshop.put("path.yaml", &format!("render: {{integrator: path, min_weight: 0,\n  max_depth: 30}}\n{clear}"));
+    workshop.fine("render path.yaml --width 8 -o a.png --samples 1");
+    workshop.fails("render path.yaml --integrator whitted", 3, "path.yaml:2:14");
+    workshop.put("wide.yaml", &format!("picture: {{width: 70000, height: 9}}\n{clear}"));
+    workshop.fails("render wide.yaml", 3, "wide.yaml:1:18");
+    workshop.fine("render wide.yaml --width 9 --height 9 -o a.png");
+    workshop.put("flat.yaml", &format!("picture: {{width: 0, height: 9}}\n{clear}"));
+    workshop.fails("render flat.yaml --height 4", 2, "from which the width follows: width must be from 1");
+}
+
+#[test]
+fn options_and_files_each_get_their_own_messages() {
+    let workshop = Workshop::new();
+    let text = "render: {max_depth: 500, integrator: {path: {clamp: -1}}}\nobjects: [sphere]\n";
+    workshop.put("both.yaml", text);
+    let told = workshop.fails("render both.yaml --noise 7 --max-depth 3", 3, "--noise: noise must be from").stderr;
+    assert!(told.contains("both.yaml:1:21") && told.contains("max_depth must be from 1 to 100, not 500"), "{told}");
+    assert!(told.contains("both.yaml:1:53") && told.contains("clamp must be"), "{told}");
+    assert!(!told.contains("--max-depth") && !told.contains("--integrator"), "{told}");
+    workshop.fails("render both.yaml --integrator path:2,-3", 3, "--integrator: clamp must be above 0");
+    workshop.put("model.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    workshop.fails("render model.obj --samples 0", 2, "--samples: samples must be from 1");
+}
+
+/// A picture says which scene it shows, whatever it was rendered with.
+#[test]
+fn options_leave_the_scene_in_the_picture_the_same() {
+    let workshop = Workshop::new();
+    let scene = |options: &str| {
+        workshop.fine(&format!("render room.yaml -o a.png {options}"));
+        workshop.fine("info a.png --json").json()["metadata"]["Scene"].clone()
+    };
+    let plain = scene("");
+    assert!(plain.is_string());
+    assert_eq!(scene("--width 8 --max-depth 2 --exposure 1"), plain);
+}
+
+#[test]
+fn warnings_are_of_the_integrator_that_renders() {
+    let workshop = Workshop::new();
+    let text = "render: {integrator: whitted, samples: 1, light_samples: 2}\npicture: {width: 8, height: 8}\nobjects: [sphere]\n";
+    workshop.put("a.yaml", text);
+    let told = |options: &str| workshop.fine(&format!("render a.yaml -o a.png --quiet {options}")).stderr;
+    let of_file = told("");
+    assert!(of_file.contains("`samples` means nothing to `whitted`, the integrator of this file"), "{of_file}");
+    assert!(!of_file.contains("`light_samples`"), "{of_file}");
+    let of_option = told("--integrator path");
+    assert!(
+        of_option.contains("`light_samples` means nothing to `path`, the choice of --integrator")
+            && !of_option.contains("to `whitted`"),
+        "{of_option}"
+    );
+    workshop.put("a.yaml", &text.replace(", light_samples: 2", ""));
+    assert_eq!(told("--integrator path"), "");
+}
+
 #[test]
 fn options_that_mean_nothing_are_told() {
     let workshop = Workshop::new();

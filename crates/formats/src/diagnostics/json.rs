@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 impl Diagnostics {
     /// An object with `diagnostics`, a list, and `omitted`, how many more there are. Each has `severity` (`error` or
     /// `warning`), `message`, `file`, `line`, `column` (both from 1, in characters), `start` and `end` (bytes),
-    /// `label`, `help` (text or null) and `related`.
+    /// `setting`, `label`, `help` (text or null) and `related`.
     pub fn to_json(&self) -> Value {
         json!({ "diagnostics": self.list.iter().map(one).collect::<Vec<_>>(), "omitted": self.omitted })
     }
@@ -27,6 +27,7 @@ fn one(diagnostic: &Diagnostic) -> Value {
         "column": diagnostic.column,
         "start": diagnostic.span.start,
         "end": diagnostic.span.end,
+        "setting": diagnostic.setting,
         "label": diagnostic.label,
         "help": diagnostic.help,
         "related": related.collect::<Vec<_>>(),

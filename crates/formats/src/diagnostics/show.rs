@@ -34,6 +34,11 @@ fn render_one(diagnostic: &Diagnostic, source: &str, renderer: &Renderer) -> Str
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
+    if diagnostic.setting.is_some() {
+        let help = diagnostic.help.as_ref().map(|help| Level::HELP.message(help));
+        let report: [Group<'_>; 1] = [Group::with_title(level.primary_title(&diagnostic.message)).elements(help)];
+        return renderer.render(&report);
+    }
     let primary = (diagnostic.span.clone(), diagnostic.label.as_deref());
     let mut lines = snippet(diagnostic, source, primary, AnnotationKind::Primary);
     let related = diagnostic.related.iter();
@@ -130,6 +135,7 @@ mod tests {
                 line: 1,
                 column: 4,
                 span: 3..4,
+                setting: None,
                 label: None,
                 help: None,
                 related: vec![Related { label: "the first".to_owned(), line: 1, column: 1, span: other..other + 1 }],

@@ -4,26 +4,48 @@ use super::{FilePlace, ModelError, read, stage::stage};
 use crate::diagnostics::Complaint;
 use crate::native::tree::Span;
 use crate::sources::Remembering;
-use crate::{Assets, Diagnostics, Limits, Loaded};
+use crate::{Assets, Diagnostics, Limits, Loaded, Overlay};
+use durer_scene::{Problem, Step};
 
 /// Reads a model, which messages call `name`, and makes a scene that shows it; `assets` are the files beside it.
 ///
 /// # Errors
 ///
 /// What is wrong with it.
-pub(crate) fn load(bytes: &[u8], name: &str, assets: &dyn Assets, limits: &Limits) -> Result<Loaded, Diagnostics> {
+pub(crate) fn load(
+    bytes: &[u8],
+    name: &str,
+    (assets, limits): (&dyn Assets, &Limits),
+    overlay: &dyn Overlay,
+) -> Result<Loaded, Diagnostics> {
     // As the model's own folder sees it.
     let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let assets = Remembering::new(assets);
     assets.remember(file, bytes);
     let model = read(file, bytes, &assets, limits).map_err(|error| diagnostics_of(error, bytes, name, limits))?;
-    let warnings =
-        model.warnings.iter().map(|warning| Complaint::warning(Span::default(), format!("in {file}: {warning}")));
-    let warnings = Diagnostics::new(warnings.collect(), name, "", limits.max_diagnostics);
-    match stage(model.scene, file).check() {
-        Ok(scene) => Ok(Loaded { scene, warnings, sources: assets.into_sources() }),
+    let warning = |message: &str| Complaint::warning(Span::default(), format!("in {file}: {message}"));
+    let mut warnings: Vec<Complaint> = model.warnings.iter().map(|message| warning(message)).collect();
+    if model.scene.primitives().total() == 0 {
+        warnings.push(warning("there is nothing to see in this model"));
+    }
+    let mut scene = stage(model.scene, file);
+    let written = (scene.picture, scene.render);
+    overlay.lay_over(&mut scene.picture, &mut scene.render);
+    let render = scene.render;
+    match scene.check() {
+        Ok(scene) => {
+            // Which nodes of a model are empty is its own affair.
+            let is_of_objects = |remark: &Problem| remark.place.steps.first() == Some(&Step::Field("objects"));
+            let remarks = scene.remarks().into_iter().filter(|remark| !is_of_objects(remark));
+            warnings.extend(remarks.map(|remark| warning(&remark.message).maybe_help(remark.help)));
+            let warnings = Diagnostics::new(warnings, name, "", limits.max_diagnostics);
+            Ok(Loaded { scene, warnings, sources: assets.into_sources(), written })
+        }
         Err(problems) => {
-            let complaint = |problem: durer_scene::Problem| {
+            let complaint = |problem: Problem| {
+                if let Some(name) = overlay.name_of(&problem.place, &render) {
+                    return Complaint::of_overlay(name, problem);
+                }
                 let message = format!("in {file}, {}: {}", problem.place, problem.message);
                 Complaint::error(Span::default(), message).maybe_help(problem.help)
             };

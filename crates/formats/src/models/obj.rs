@@ -301,7 +301,8 @@ impl<'a> Reader<'a> {
 
     fn finish(mut self, file: &str) -> Result<Model, ModelError> {
         if self.triangles.len() == 0 {
-            return Err(ModelError::new("this file has no faces, so there is nothing to see"));
+            let error = ModelError::new("this file has no faces, so there is nothing to see");
+            return Err(error.help("save it with its faces, lines that begin with `f`; curves and lines are not drawn"));
         }
         if self.triangulator.rushed > 0 {
             let rushed = self.triangulator.rushed;

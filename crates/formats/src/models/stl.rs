@@ -57,12 +57,12 @@ fn read_binary(file: &str, bytes: &[u8], limits: &Limits) -> Result<Model, Model
     let Some(count) = count(bytes) else {
         let error =
             ModelError::new("this is no STL file: it neither begins with `solid` nor has the header of a binary one");
-        return Err(error.at(FilePlace::Byte(0)));
+        return Err(error.at(FilePlace::Byte(0)).help("is it a file of another format, with a wrong ending?"));
     };
     let facets = &bytes[HEADER..];
     if facets.len() / FACET < count as usize {
         let message = format!("the file ends after {} of {count} triangles", facets.len() / FACET);
-        return Err(ModelError::new(message).at(FilePlace::Byte(bytes.len() as u64)));
+        return Err(ModelError::new(message).at(FilePlace::Byte(bytes.len() as u64)).help(super::LOST));
     }
     let mut warnings = Warnings::default();
     let rest = facets.len() - count as usize * FACET;

@@ -47,6 +47,8 @@ pub(crate) struct Decoder<'a> {
     pub(crate) imported: usize,
     /// Pixels of all images so far.
     pub(crate) texture_bytes: u64,
+    /// Whole numbers beyond all that can be held, which became the largest, as they are written; see [`Decoder::too_large`].
+    pub(crate) beyond: Vec<(Span, String)>,
     /// Values that stand beside one that could not be read: what the check says of them may come from the stand-in.
     pub(crate) doubtful: Vec<Span>,
 }
@@ -57,6 +59,7 @@ impl<'a> Decoder<'a> {
             complaints: Vec::new(),
             assets,
             limits,
+            beyond: Vec::new(),
             doubtful: Vec::new(),
             scene: Scene::default(),
             texture_names: BTreeMap::new(),
@@ -83,6 +86,36 @@ impl<'a> Decoder<'a> {
     pub(crate) fn expected_noun<T>(&mut self, node: &Node, noun: &str, advice: Option<String>) -> Option<T> {
         let message = format!("expected {noun}, found {}", node.found());
         self.complain(Complaint::error(node.span, message).maybe_help(advice))
+    }
+
+    /// Takes the largest number for one that is larger still. If it is too large for its place, the check says how large it may
+    /// be, and [`Decoder::as_written`] has it say the number that is written; if not, it cannot be held.
+    pub(crate) fn too_large(&mut self, node: &Node) -> u32 {
+        if self.beyond.len() < MOST_COMPLAINTS {
+            self.beyond.push((node.span, shorten(node.text().unwrap_or_default())));
+        }
+        u32::MAX
+    }
+
+    /// What the check says of this place, with the number that is written there.
+    pub(crate) fn as_written(&mut self, message: String, span: Span) -> String {
+        let stand_in = u32::MAX.to_string();
+        if !message.contains(&stand_in) {
+            return message;
+        }
+        let is_there = |(near, _): &(Span, String)| span.start <= near.start && near.end <= span.end;
+        match self.beyond.iter().position(is_there) {
+            Some(at) => message.replace(&stand_in, &self.beyond.swap_remove(at).1),
+            None => message,
+        }
+    }
+
+    /// Complains of those that the check has nothing against.
+    pub(crate) fn refuse_those_beyond(&mut self, complaints: &mut Vec<Complaint>) {
+        for (span, _) in std::mem::take(&mut self.beyond) {
+            let complaint = Complaint::error(span, "this number is too large");
+            complaints.push(complaint.help(format!("whole numbers go up to {}", u32::MAX)));
+        }
     }
 
     /// Complains about `node`.
@@ -155,7 +188,8 @@ impl<'n, 'd, 'a> Fields<'n, 'd, 'a> {
             Some((NodeKind::Mapping(entries), _)) => entries,
             Some((_, value)) => {
                 let glued = value.text().and_then(super::hints::glued).map(|(_, help)| help);
-                let advice = glued.or_else(|| Some(format!("write `{word}: {{…}}`")));
+                let named = || value.text().and_then(|text| super::hints::file_alone(word, text));
+                let advice = glued.or_else(named).or_else(|| Some(format!("write `{word}: {{…}}`")));
                 return cx.expected_noun(value, &format!("the fields of `{word}`"), advice);
             }
         };

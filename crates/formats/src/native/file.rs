@@ -178,8 +178,8 @@ impl Value for Materials {
     }
 }
 
-/// Writes a scene.
-pub(crate) fn write(scene: &Scene) -> String {
+/// Writes a scene, with these settings.
+pub(crate) fn write(scene: &Scene, (picture, render): (Picture, RenderSettings)) -> String {
     let (texture_names, material_names) = super::names::choose(scene);
     let writer = Writer { scene: Some(scene), texture_names, material_names };
     let named = |names: &[Option<String>]| {
@@ -188,8 +188,8 @@ pub(crate) fn write(scene: &Scene) -> String {
     };
     let file = SceneFile {
         camera: scene.camera.clone(),
-        picture: scene.picture,
-        render: scene.render,
+        picture,
+        render,
         background: scene.background,
         ambient: scene.ambient,
         fog: scene.fog,

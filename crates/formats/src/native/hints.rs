@@ -2,10 +2,10 @@
 
 use super::record::{Choice, KindAbout, Record};
 use super::suggest;
-use super::surfaces::Physical;
+use super::surfaces::{Common, Physical};
 use super::tree::{Entry, Node, shorten};
 use crate::diagnostics::Complaint;
-use durer_scene::Classic;
+use durer_scene::{Classic, Pattern};
 
 const STEPS: [&str; 4] = ["translate", "rotate", "scale", "matrix"];
 
@@ -68,6 +68,13 @@ pub(crate) fn glued(text: &str) -> Option<(&str, String)> {
     Some((word, help))
 }
 
+/// Help for the name of a file in place of the fields of a kind that is read from files.
+pub(crate) fn file_alone(word: &str, text: &str) -> Option<String> {
+    let is_of_files = matches!(word, "image" | "mesh" | "import" | "spheres" | "cylinders" | "cones" | "capsules")
+        && text.contains('.');
+    is_of_files.then(|| format!("write `{word}: {{file: {}}}`", shorten(text)))
+}
+
 fn glued_to(text: &str, known: &[&str]) -> Option<String> {
     glued(text).filter(|(word, _)| known.contains(word)).map(|(_, help)| help)
 }
@@ -100,11 +107,23 @@ pub(crate) fn unknown_field(title: &str, name: &str, value: &Node, known: &[&str
     if name == "texture" && known.contains(&"color") {
         return "a texture is given as `color`: `color: {checker: {…}}`, or the name of a texture".to_owned();
     }
+    let holder = ["color", "texture"].into_iter().find(|field| known.contains(field));
+    if let (Some(field), true) = (holder, Pattern::WORDS.iter().any(|(word, _)| *word == name)) {
+        return format!("a texture is given as `{field}`: `{field}: {{{name}: {{…}}}}`");
+    }
     if matches!(name, "color" | "colour" | "texture") && known.contains(&"material") {
         return "it is part of the material: `material: {color: …}`".to_owned();
     }
-    if matches!(name, "opacity" | "emission") && known.contains(&"material") {
-        return format!("it is part of the material: `material: {{{name}: …}}`");
+    if known.contains(&"material") && !known.contains(&"color") {
+        let common = ["opacity", "emission", "normal_map", "bump"];
+        let kinds = Physical::WORDS.iter().map(|(word, _)| *word);
+        // What is near to a field of the thing itself is meant as that.
+        let is_other = suggest::nearest(name, known.iter().copied()).is_none();
+        if let Some(near) =
+            suggest::nearest(name, common.into_iter().chain(kinds)).filter(|near| is_other || *near == name)
+        {
+            return format!("it is part of the material: `material: {{{near}: …}}`");
+        }
     }
     if title == "material"
         && let Some(help) = field_of_kinds(name)
@@ -129,6 +148,13 @@ fn field_of_kinds(name: &str) -> Option<String> {
     let last = words.last()?;
     let list = suggest::list(&words);
     Some(format!("that is a field of {list}, of which one would be written `{last}: {{{name}: …}}`"))
+}
+
+/// The field of a material of this kind that was probably meant.
+fn field_of_material(noun: &str, word: &str, written: &str) -> Option<&'static str> {
+    let kind = Physical::kinds().into_iter().find(|kind| noun == "material" && kind.word == word)?;
+    let fields = kind.fields.iter().chain(&Common::about()).map(|field| field.key).collect::<Vec<&'static str>>();
+    suggest::nearest(written, fields)
 }
 
 /// Help for a kind that does not exist.
@@ -160,8 +186,10 @@ pub(crate) fn several_kinds(first: &Entry, others: &[Entry], noun: &str, words: 
         (Some(kind), None) => {
             let word = name(kind);
             let stray = entries().find(|entry| name(entry) != word).unwrap_or(first);
-            let message = format!("`{}` must stand in `{word}`, not beside it", shorten(&name(stray)));
-            let help = format!("indent it further than `{word}`, or write `{word}: {{{}: …}}`", shorten(&name(stray)));
+            let written = name(stray);
+            let message = format!("`{}` must stand in `{word}`, not beside it", shorten(&written));
+            let meant = field_of_material(noun, &word, &written).unwrap_or(&written);
+            let help = format!("indent it further than `{word}`, or write `{word}: {{{}: …}}`", shorten(meant));
             Complaint::error(stray.0.span, message).help(help).also(kind.0.span, "the kind")
         }
         (Some(kind), Some(second)) => {

@@ -22,7 +22,12 @@ impl Value for Rgb {
     fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
         match &node.kind {
             NodeKind::Sequence(items) if items.len() != 3 => {
-                cx.refuse(node, &format!("expected a color of three numbers [r, g, b], found {}", items.len()))
+                let message = format!("expected a color of three numbers [r, g, b], found {}", items.len());
+                cx.complain(Complaint::error(node.span, message).help(match items.len() {
+                    1 => "for a gray, write the number without brackets",
+                    4 => "leave out the fourth: how much of a surface is there is its material's `opacity`",
+                    _ => "write red, green and blue, for example `[0.8, 0.4, 0.1]`",
+                }))
             }
             NodeKind::Sequence(_) => components(node, cx),
             NodeKind::Scalar { .. } if number_text(node).is_some() => f32::decode(node, cx).map(Rgb::gray),
@@ -73,8 +78,8 @@ fn unknown_color(node: &Node, text: &str, textures: &[&str]) -> Complaint {
         Some(numbers) if numbers.len() == 3 => return complaint.help(format!("write `[{}]`", parts.join(", "))),
         _ => {}
     }
-    if text.starts_with('#') {
-        return complaint.help("write `\"#rgb\"` or `\"#rrggbb\"` with the digits 0-9 and a-f");
+    if let Some(help) = hexadecimal(text).or_else(|| image_file(text)) {
+        return complaint.help(help);
     }
     let squeezed = text.replace([' ', '_', '-'], "");
     let known = textures.iter().copied().chain(colors::NAMES.iter().map(|(name, _)| *name));
@@ -82,6 +87,29 @@ fn unknown_color(node: &Node, text: &str, textures: &[&str]) -> Complaint {
         Some(near) => format!("did you mean `{near}`?"),
         None => "a color is a CSS name, \"#rrggbb\", a gray from 0 to 1, or `[r, g, b]`".to_owned(),
     })
+}
+
+/// Help for a color by hexadecimal digits that is not quite as it should be.
+fn hexadecimal(text: &str) -> Option<String> {
+    let is_marked = text.starts_with('#');
+    let digits = ["#", "0x", "0X"].iter().find_map(|mark| text.strip_prefix(mark)).unwrap_or(text);
+    let are_digits = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
+    match digits.len() {
+        3 | 6 if are_digits && !is_marked => Some(format!("write `\"#{digits}\"`")),
+        4 | 8 if are_digits && is_marked => {
+            let opaque = &digits[..digits.len() / 4 * 3];
+            Some(format!("write `\"#{opaque}\"`; how much of a surface is there is its material's `opacity`"))
+        }
+        _ => is_marked.then(|| "write `\"#rgb\"` or `\"#rrggbb\"` with the digits 0-9 and a-f".to_owned()),
+    }
+}
+
+/// Help for the name of an image where a color should be.
+pub(super) fn image_file(text: &str) -> Option<String> {
+    let (_, ending) = text.rsplit_once('.')?;
+    let ending = ending.to_ascii_lowercase();
+    let is_image = matches!(ending.as_str(), "png" | "jpg" | "jpeg" | "exr" | "hdr" | "pfm");
+    is_image.then(|| format!("for an image write `{{image: {{file: {}}}}}`", shorten(text)))
 }
 
 impl Value for Paint {

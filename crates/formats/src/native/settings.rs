@@ -4,7 +4,7 @@ use super::decode::{Decoder, Fields};
 use super::record::{
     Choice, FieldAbout, KindAbout, Record, choice, choice_value, encode_choice, fields, record, record_value,
 };
-use super::tree::{Node, NodeKind};
+use super::tree::{Node, NodeKind, shorten};
 use super::value::{Value, number_text};
 use super::write::{FieldsOut, Out, Writer};
 use crate::diagnostics::Complaint;
@@ -57,14 +57,20 @@ record!(RenderSettings {
 });
 record_value!(RenderSettings, "render", RenderSettings::default());
 
-/// What a file says for another integrator than the one that it names. (One that names none may be meant for several, which the
-/// command line chooses from.)
-pub(super) fn warn_of_unused(root: &Node, integrator: &Integrator, complaints: &mut Vec<Complaint>) {
+/// What a file that names its integrator says for another than the one that renders, which may be `chosen_by` an overlay. (A
+/// file that names none may be meant for several, which the command line chooses from.)
+pub(super) fn warn_of_unused(
+    root: &Node,
+    integrator: &Integrator,
+    chosen_by: Option<&str>,
+    complaints: &mut Vec<Complaint>,
+) {
     let Some((_, render)) = root.get("render") else { return };
     if render.get("integrator").is_none() {
         return;
     }
     let word = integrator.word();
+    let whose = chosen_by.map_or("the integrator of this file".to_owned(), |name| format!("the choice of {name}"));
     let unused: &[(&str, &str)] = match integrator {
         Integrator::Path { .. } => &[
             ("max_depth", "`path` has a `max_depth` of its own: `integrator: {path: {max_depth: 16}}`"),
@@ -103,10 +109,7 @@ pub(super) fn warn_of_unused(root: &Node, integrator: &Integrator, complaints: &
     };
     for (field, help) in unused {
         if let Some((key, _)) = render.get(field) {
-            let complaint = Complaint::warning(
-                key.span,
-                format!("`{field}` means nothing to `{word}`, the integrator of this file"),
-            );
+            let complaint = Complaint::warning(key.span, format!("`{field}` means nothing to `{word}`, {whose}"));
             complaints.push(if help.is_empty() { complaint } else { complaint.help(*help) });
         }
     }
@@ -292,6 +295,9 @@ impl Value for Background {
             NodeKind::Mapping(_) => super::record::decode_record("background", node, cx)
                 .map(|Sky { bottom, top }| Background::Gradient { bottom, top }),
             NodeKind::Scalar { .. } if node.is_null() => cx.expected::<Self>(node),
+            NodeKind::Scalar { text, .. } if super::paint::image_file(text).is_some() => {
+                cx.expected_noun(node, &Self::noun(), Some(format!("write `background: {{image: {}}}`", shorten(text))))
+            }
             NodeKind::Scalar { .. } | NodeKind::Sequence(_) => Rgb::decode(node, cx).map(Background::Color),
         }
     }

@@ -101,8 +101,7 @@ impl Value for u32 {
         if number < 0.0 {
             return cx.refuse(node, "this must not be negative: expected a whole number from 0 up");
         }
-        // What has a limit is refused by the check, which names it: so a larger number becomes the largest.
-        Some(number as u32)
+        Some(if number > f64::from(u32::MAX) { cx.too_large(node) } else { number as u32 })
     }
     fn encode(&self, _: &Writer<'_>) -> Out {
         Out::Plain(self.to_string())

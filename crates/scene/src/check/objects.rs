@@ -97,11 +97,16 @@ fn shape(c: &mut Checker<'_>, shape: &Shape) {
             c.point("corner", corner);
             c.field("edges", |c| {
                 let mut fine = true;
+                let help = "edges go from the corner along two sides, for example `edges: [[2, 0, 0], [0, 0, -2]]`";
                 for (at, edge) in edges.into_iter().enumerate() {
-                    fine &= c.at(Step::Index(at), |c| c.direction_here("an edge", edge));
+                    fine &= c.at(Step::Index(at), |c| match edge == DVec3::ZERO {
+                        true => c.problem_with_help("an edge must not be zero: the rectangle has no area", help),
+                        false => c.direction_here("an edge", edge),
+                    });
                 }
                 if fine && is_flat(edges[0], edges[1]) {
-                    c.problem("the two edges must point in different directions");
+                    let message = "the two edges must point in different directions: the rectangle has no area";
+                    c.problem_with_help(message, help);
                 }
             });
         }
@@ -148,7 +153,8 @@ fn triangle(c: &mut Checker<'_>, vertices: [DVec3; 3]) {
         }
         let [a, b, d] = vertices;
         if fine && is_flat(b - a, d - a) {
-            c.problem("the three vertices must not lie on one line");
+            let help = "move one of them away from the line through the others, or leave the triangle out";
+            c.problem_with_help("the three vertices must not lie on one line: the triangle has no area", help);
         }
     });
 }

@@ -1,11 +1,11 @@
 //! What is worth saying of a scene that can be rendered: what will not look as it was meant.
 
-use super::Step;
 use super::bounds::BRIGHTEST;
 use super::values::Checker;
+use super::{Step, emptiness};
 use crate::{
-    Background, Channels, Classic, Encoding, Import, Instances, Integrator, Material, MaterialId, MaterialKind, Object,
-    ObjectKind, Paint, Pattern, Relief, Shape, TextureId,
+    Background, Bump, Channels, Classic, Encoding, Import, Instances, Integrator, Material, MaterialId, MaterialKind,
+    NormalMap, Object, ObjectKind, Paint, Pattern, Relief, Shape, TextureId,
 };
 use durer_imaging::{Bitmap, Texels};
 
@@ -16,6 +16,7 @@ pub(super) fn remark(c: &mut Checker<'_>) {
     }
     let objects = &c.scene.objects;
     c.field("objects", |c| planes(c, objects, None));
+    emptiness::remark(c);
     darkness(c);
 }
 
@@ -74,6 +75,19 @@ fn parts(c: &mut Checker<'_>, material: &Material) {
             let message = format!("the numbers in this image are taken for colors, though {field} is none");
             c.field(field, |c| c.problem_with_help(message, "add `encoding: linear` to the image"));
         }
+    }
+    match material.relief {
+        Some(Relief::NormalMap(NormalMap { texture: Paint::Color(_), .. })) => c.field("normal_map", |c| {
+            let help = "give a texture, such as `normal_map: {image: {file: normals.png, encoding: linear}}`";
+            let message = "this normal map is a plain color: it leans all normals the same way, and shows no relief";
+            c.field("texture", |c| c.problem_with_help(message, help));
+        }),
+        Some(Relief::Bump(Bump { height: Paint::Color(_), .. })) => c.field("bump", |c| {
+            let help = "give a texture, such as `height: {noise: {size: 0.1}}`";
+            let message = "this height is the same everywhere, and shows no relief";
+            c.field("height", |c| c.problem_with_help(message, help));
+        }),
+        Some(Relief::NormalMap(_) | Relief::Bump(_)) | None => {}
     }
     let path = matches!(c.scene.render.integrator, Integrator::Path { .. });
     if let (true, MaterialKind::Classic(classic)) = (path, &material.kind)

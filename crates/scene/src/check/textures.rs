@@ -1,8 +1,9 @@
 //! Textures: their numbers, and that none is made of itself.
 
 use super::Step;
+use super::bounds::BRIGHTEST;
 use super::values::{Around, Checker};
-use crate::{ImageId, Mapping, Paint, Pattern, Texture, TextureId};
+use crate::{ImageId, Mapping, Paint, Pattern, Scene, Texture, TextureId};
 use durer_imaging::{Alpha, Bitmap, Texels};
 
 /// How deep textures may be made of textures.
@@ -14,10 +15,28 @@ const MOST_COLORS: usize = 1000;
 
 pub(super) fn check(c: &mut Checker<'_>) {
     images(c);
-    for (id, one) in (0..).zip(&c.scene.textures) {
-        c.at(Step::Texture(TextureId(id)), |c| texture(c, one));
+    let glowing = glowing(c.scene);
+    for ((id, one), glows) in (0..).zip(&c.scene.textures).zip(glowing) {
+        c.at(Step::Texture(TextureId(id)), |c| texture(c, one, glows));
     }
     nesting(c);
+}
+
+/// Which textures give a material its emission, themselves or as parts of others.
+fn glowing(scene: &Scene) -> Vec<bool> {
+    let mut glowing = vec![false; scene.textures.len()];
+    let id_of = |paint: Paint| match paint {
+        Paint::Color(_) => None,
+        Paint::Texture(TextureId(id)) => Some(id as usize),
+    };
+    let mut open: Vec<usize> = scene.materials.iter().filter_map(|material| id_of(material.emission.color)).collect();
+    while let Some(id) = open.pop() {
+        if glowing.get(id) == Some(&false) {
+            glowing[id] = true;
+            open.extend(parts(&scene.textures[id]));
+        }
+    }
+    glowing
 }
 
 fn images(c: &mut Checker<'_>) {
@@ -36,7 +55,8 @@ fn images(c: &mut Checker<'_>) {
         if let Some(at) = first_not_finite(bitmap) {
             let (x, y) = (at as u64 % u64::from(bitmap.width.max(1)), at as u64 / u64::from(bitmap.width.max(1)));
             c.at(Step::Image(ImageId(id)), |c| {
-                c.problem(format!("the image's pixel {x},{y} is infinite or not a number"))
+                let help = "put numbers there in an image editor; renderers leave such pixels where they divided by 0";
+                c.problem_with_help(format!("the image's pixel {x},{y} is infinite or not a number"), help)
             });
         }
     }
@@ -84,11 +104,11 @@ impl Pattern {
     }
 }
 
-fn texture(c: &mut Checker<'_>, texture: &Texture) {
+fn texture(c: &mut Checker<'_>, texture: &Texture, glows: bool) {
     let Texture { name: _, transform, pattern } = texture;
     c.field(pattern.word(), |c| {
         c.transform(transform, Around::WORLD);
-        c.field("colors", |c| colors(c, pattern));
+        c.field("colors", |c| colors(c, pattern, glows));
         match *pattern {
             Pattern::Checker { size, .. } => _ = c.size("size", size),
             Pattern::Stripes { axis, width, .. } => _ = c.direction("axis", axis) & c.size("width", width),
@@ -116,15 +136,33 @@ fn octaves(c: &mut Checker<'_>, octaves: u32) -> bool {
     c.within("octaves", octaves.into(), 1.0, 16.0)
 }
 
-fn colors(c: &mut Checker<'_>, pattern: &Pattern) {
+fn colors(c: &mut Checker<'_>, pattern: &Pattern, glows: bool) {
     let colors = pattern.colors();
     let counts = !matches!(pattern, Pattern::Image(_));
     if counts && !(2..=MOST_COLORS).contains(&colors.len()) {
         c.problem(format!("there must be from 2 to {MOST_COLORS} colors, not {}", colors.len()));
     }
+    let brightest = colors.iter().filter_map(|paint| match paint {
+        Paint::Color(color) if color.is_finite() => Some(color.max_component()),
+        Paint::Color(_) | Paint::Texture(_) => None,
+    });
+    let brightest = brightest.fold(0.0, f32::max);
     for (at, color) in colors.iter().enumerate() {
-        c.at(Step::Index(at), |c| super::materials::paint(c, "a color", *color));
+        c.at(Step::Index(at), |c| match color {
+            Paint::Color(color) if glows && color.min_component() >= 0.0 && is_light(color.max_component()) => {
+                let help = format!(
+                    "divide all of them by {brightest}, and say so beside the texture: `emission: {{color: …, strength: {brightest}}}`"
+                );
+                c.problem_with_help("a color of a texture must not be above 1, though it gives light", help);
+            }
+            Paint::Color(_) | Paint::Texture(_) => super::materials::paint(c, "a color", *color),
+        });
     }
+}
+
+/// True for what light may be, but a color may not.
+fn is_light(component: f32) -> bool {
+    component > 1.0 && component <= BRIGHTEST
 }
 
 /// The textures that a texture is made of.

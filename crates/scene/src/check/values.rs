@@ -121,7 +121,8 @@ impl<'s> Checker<'s> {
             return false;
         }
         if direction == DVec3::ZERO {
-            return self.problem(format!("{name} must not be zero: it has no direction"));
+            let help = "any length other than 0 will do, such as `[0, 1, 0]`";
+            return self.problem_with_help(format!("{name} must not be zero: it has no direction"), help);
         }
         direction.length() >= SMALLEST || self.problem(format!("{name} must be at least {SMALLEST:e} long"))
     }
@@ -159,7 +160,8 @@ impl<'s> Checker<'s> {
             return self.problem(message);
         }
         let help = "components go from 0 to 1";
-        if color.max_component() <= 255.0 && color.to_array().iter().all(|x| x.fract() == 0.0) {
+        // Bytes that are all so small are more likely meant as something else.
+        if (16.0..=255.0).contains(&color.max_component()) && color.to_array().iter().all(|x| x.fract() == 0.0) {
             let [r, g, b] = color.to_array().map(|x| x as u8);
             return self.problem_with_help(message, format!("{help}; for 0 to 255 write \"#{r:02x}{g:02x}{b:02x}\""));
         }

@@ -12,8 +12,9 @@ use crate::progress::{Bar, Phase, Reached, Show};
 use crate::{output, provenance, target};
 use durer::imaging::{EncodeOptions, Layers};
 use durer::{
-    CheckedScene, Checkpoint, Film, FilmLayer, Origin, PictureFile, Progress, Region, RenderError, RenderOptions,
-    SceneHash, SceneItem, SeenFirst, Sources, WriteError, film_layers, read_checkpoint, seen_first, temporary_beside,
+    CheckedScene, Checkpoint, Film, FilmLayer, Loaded, Origin, PictureFile, Progress, Region, RenderError,
+    RenderOptions, SceneHash, SceneItem, SeenFirst, Sources, WriteError, film_layers, read_checkpoint, seen_first,
+    temporary_beside,
 };
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -82,11 +83,10 @@ impl Job<'_> {
             None if arguments.layers.alpha => return Err(Failure::usage("--alpha: films have none; pictures have")),
             None => arguments.file.of_no_picture().map(|()| EncodeOptions::default())?,
         };
-        let (loaded, load) = timed(|| arguments.scene.load_with_sources(show));
-        let (scene, sources) = loaded?;
-        let fingerprint = durer::scene_fingerprint(scene.scene(), &sources);
-        let scene = arguments.overrides.apply(scene)?;
-        options.metadata = provenance::of_render(fingerprint, scene.scene(), arguments.crop);
+        let (loaded, load) = timed(|| arguments.overrides.load(&arguments.scene, show));
+        let loaded = loaded?;
+        options.metadata = provenance::of_render(loaded.fingerprint(), loaded.scene.scene(), arguments.crop);
+        let Loaded { scene, sources, .. } = loaded;
         let (integrator, exr) = (&scene.scene().render.integrator, durer::imaging::FileFormat::Exr);
         let layers = match format {
             Some(format) => arguments.layers.of_file(format, integrator)?,

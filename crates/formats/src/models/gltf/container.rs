@@ -1,6 +1,6 @@
 //! The two containers: JSON text by itself, and the chunks of a `.glb` file.
 
-use super::super::{FilePlace, ModelError};
+use super::super::{FilePlace, LOST, ModelError};
 
 /// What a file is made of.
 pub(super) struct Container<'a> {
@@ -31,7 +31,7 @@ pub(super) fn open(bytes: &[u8]) -> Result<Container<'_>, ModelError> {
 
 fn open_binary(bytes: &[u8]) -> Result<Container<'_>, ModelError> {
     let (Some(version), Some(length)) = (number(bytes, 4), number(bytes, 8)) else {
-        return Err(fault(bytes.len(), "the file ends within its header"));
+        return Err(fault(bytes.len(), "the file ends within its header").help(LOST));
     };
     if version != 2 {
         let fault = fault(4, format!("this is glTF {version}; only 2.0 can be read"));
@@ -59,12 +59,15 @@ fn open_binary(bytes: &[u8]) -> Result<Container<'_>, ModelError> {
 /// The kind and the bytes of the chunk at `start`, and where the next one starts.
 fn chunk(bytes: &[u8], start: usize) -> Result<(u32, &[u8], usize), ModelError> {
     let (Some(length), Some(kind)) = (number(bytes, start), number(bytes, start + 4)) else {
-        return Err(fault(start, "the file ends within the header of a chunk"));
+        return Err(fault(start, "the file ends within the header of a chunk").help(LOST));
     };
     let data = &bytes[start + CHUNK_HEADER..];
     match data.get(..length as usize) {
         Some(data) => Ok((kind, data, start + CHUNK_HEADER + data.len())),
-        None => Err(fault(start, format!("this chunk should have {length} bytes, but only {} follow", data.len()))),
+        None => {
+            let message = format!("this chunk should have {length} bytes, but only {} follow", data.len());
+            Err(fault(start, message).help(LOST))
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The header of a PLY file: text that says what elements follow, and of what numbers each consists.
 
 use super::super::text::{Cursor, shown};
-use super::super::{FilePlace, ModelError};
+use super::super::{FilePlace, LOST, ModelError};
 
 /// What a PLY file says of itself.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,7 +127,8 @@ impl Header {
         let mut lines = Lines { bytes, at: 0, number: 0 };
         let first = lines.next()?;
         if first != b"ply" {
-            return Err(lines.error("a PLY file begins with a line `ply`"));
+            let error = lines.error("a PLY file begins with a line `ply`");
+            return Err(error.help("is it a file of another format, with a wrong ending?"));
         }
         let mut encoding = None;
         let mut elements: Vec<Element> = Vec::new();
@@ -168,7 +169,7 @@ impl Header {
                 let Element { count, name, .. } = element;
                 let message =
                     format!("this file is too short to hold {count} of the element `{}`", shown(name.as_bytes()));
-                return Err(ModelError::new(message).at(FilePlace::Line(element.line)));
+                return Err(ModelError::new(message).at(FilePlace::Line(element.line)).help(LOST));
             }
             left -= least;
         }
@@ -230,7 +231,7 @@ impl<'a> Lines<'a> {
         let rest = &self.bytes[self.at..];
         self.number += 1;
         let Some(length) = rest.iter().position(|byte| matches!(byte, b'\n' | b'\r')) else {
-            return Err(self.error("the file ends within its header"));
+            return Err(self.error("the file ends within its header").help(LOST));
         };
         let is_pair = rest[length..].starts_with(b"\r\n");
         self.at += length + if is_pair { 2 } else { 1 };

@@ -4,7 +4,7 @@
 //! the elements for all types is short, and fast enough to be hardly seen beside the disk.
 
 use super::super::text::{Cursor, shown};
-use super::super::{FilePlace, ModelError};
+use super::super::{FilePlace, LOST, ModelError};
 use super::header::{Element, NumberType};
 
 /// Numbers to be read.
@@ -188,5 +188,9 @@ pub(super) fn error(values: &mut impl Values, trouble: Trouble, element: &Elemen
         Trouble::NotALength(length) => format!("a list of {length} numbers is more than the file can hold, in {which}"),
     };
     let at = values.at();
-    ModelError::new(message).at(values.place(at))
+    let error = ModelError::new(message).at(values.place(at));
+    match trouble {
+        Trouble::Ended => error.help(LOST),
+        Trouble::NotANumber | Trouble::NotALength(_) => error,
+    }
 }
