@@ -34,7 +34,7 @@ pub(super) fn source(source: Source) -> &'static str {
         Source::Diffuse(_) => "diffuse",
         Source::Specular(_) => "highlight",
         Source::Light(_) => "light that was aimed at",
-        Source::Reused => "light from there, shared by all that see it",
+        Source::Reused => "light that was found there",
         Source::Shown => "what is shown of it",
     }
 }
