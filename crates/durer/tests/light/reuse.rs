@@ -206,8 +206,7 @@ fn depths() {
     }
 }
 
-/// In a glowing ball of albedo ρ there is L / (1 - ρ), with far less noise than without: half of what is left of it is not of
-/// the paths but of the pixels' own.
+/// In a glowing ball of albedo ρ there is L / (1 - ρ), with far less noise than without.
 #[test]
 fn a_glowing_ball() {
     let of = |path: &str| {
