@@ -169,6 +169,9 @@ mod tests {
         let counts = plain.differences(&more);
         assert_eq!(counts, ["noise", "samples", "seed", "time"].map(SceneItem::Setting));
         assert_eq!(counts.iter().filter(|item| item.changes_samples()).count(), 1);
+        let reused = of("picture: {width: 64, height: 48}\nrender: {integrator: {path: {reuse: 16}}}");
+        let path = of("picture: {width: 64, height: 48}\nrender: {integrator: path}");
+        assert_eq!(path.differences(&reused), [SceneItem::Setting("integrator")]);
         // One whose name looks like a setting's would have to begin with a byte that no name can have.
         assert_eq!(item_of("seed"), SceneItem::File("seed"));
     }

@@ -7,10 +7,10 @@ use crate::film::{Account, Part, PixelSums, Region, SampleRange, Sums};
 use crate::filter_sampling::FilterSampling;
 use crate::holes::Known;
 use crate::integrators::{
-    Integrator as AnyIntegrator, ambient_occlusion::AmbientOcclusion, path::PathTracer, sharp::Sharp,
+    Integrator as AnyIntegrator, Together, ambient_occlusion::AmbientOcclusion, path::PathTracer, sharp::Sharp,
 };
 use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Scattering, Source, SurfaceSeen, Weighing};
-use crate::passes::Begun;
+use crate::passes::{Begun, block_of, edge_of_blocks};
 use crate::reconstruct::{Reconstruction, color_of, normalize};
 use crate::schedule::{RenderOptions, WithAntialias, pixel_alone, render, with_antialias};
 use durer_geometry::{Hit, Ray, Surface};
@@ -59,7 +59,8 @@ pub struct RayExplanation {
     pub origin: DVec3,
     /// Where it goes; unit length.
     pub direction: DVec3,
-    /// What light at its start counts in the sample.
+    /// What light at its start counts in the sample; if that comes at a point of which several pixels make use, what it counts
+    /// of the light there, which [`RayKind::Connected`] rays take from there.
     pub weight: Rgb,
     /// Surfaces that it went through a hole of before that, in order.
     pub holes: Vec<HoleExplanation>,
@@ -197,12 +198,21 @@ fn explain_samples<I: AnyIntegrator>(
     let film = render(scene, &options, &()).ok()?;
     let (color, taken) = (*film.pixels().first()?, film.sums()?.samples() as u32);
     let filter = FilterSampling::new(scene.settings.filter);
+    let block = block_of((x, y), edge_of_blocks(integrator), scene.picture_size());
     let explained = (0..taken).filter_map(|number| {
-        let Begun { sampler, at, is_negative, ray } = Begun::new(scene, &filter, (x, y), number);
-        let mut recorder = Recorder { scene, ray: None, open: Vec::new(), weighing: None };
-        let color = integrator.radiance(scene, &ray, Known::Nothing, &sampler, &mut recorder);
+        let Begun { at, is_negative, .. } = Begun::new(scene, &filter, (x, y), number);
+        let together = block.pixel_places().map(|pixel| {
+            let Begun { ray, sampler, .. } = Begun::new(scene, &filter, pixel, number);
+            let recorder = Recorder { scene, ray: None, open: Vec::new(), weighing: None };
+            let observer = (pixel == (x, y)).then_some(recorder);
+            Together { ray, known: Known::Nothing, sampler, observer, light: Rgb::BLACK }
+        });
+        let mut together: Vec<Together<'_, Option<Recorder<'_>>>> = together.collect();
+        integrator.radiances(scene, &mut together.iter_mut().collect::<Vec<_>>());
+        let mut watched = together.into_iter().filter_map(|sample| sample.observer.map(|seen| (sample.light, seen)));
+        let (color, Recorder { ray, .. }) = watched.next()?;
         let weight = if is_negative { -1.0 } else { 1.0 } / taken as f32;
-        Some(SampleExplanation { at, weight: color.is_finite().then_some(weight), color, ray: recorder.ray? })
+        Some(SampleExplanation { at, weight: color.is_finite().then_some(weight), color, ray: ray? })
     });
     Some(PixelExplanation { x, y, color, samples: explained.collect(), is_mean: true })
 }

@@ -141,6 +141,49 @@ pub(crate) trait Observer {
     fn ray_ends(&mut self) {}
 }
 
+/// Somebody or nobody.
+impl<O: Observer> Observer for Option<O> {
+    fn ray_begins(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb) {
+        self.iter_mut().for_each(|observer| observer.ray_begins(kind, depth, ray, weight));
+    }
+
+    fn hole(&mut self, hit: &Hit, surface: &Surface, length: f64) {
+        self.iter_mut().for_each(|observer| observer.hole(hit, surface, length));
+    }
+
+    fn surface(&mut self, seen: &SurfaceSeen) {
+        self.iter_mut().for_each(|observer| observer.surface(seen));
+    }
+
+    fn light(&mut self, seen: &LightSeen) {
+        self.iter_mut().for_each(|observer| observer.light(seen));
+    }
+
+    fn shadow_ray(&mut self) {
+        self.iter_mut().for_each(Observer::shadow_ray);
+    }
+
+    fn contribution(&mut self, source: Source, amount: Rgb) {
+        self.iter_mut().for_each(|observer| observer.contribution(source, amount));
+    }
+
+    fn weighing(&mut self, weighing: &Weighing) {
+        self.iter_mut().for_each(|observer| observer.weighing(weighing));
+    }
+
+    fn scattering(&mut self, scattering: &Scattering) {
+        self.iter_mut().for_each(|observer| observer.scattering(scattering));
+    }
+
+    fn not_traced(&mut self, kind: RayKind, weight: Rgb, why: NotTraced) {
+        self.iter_mut().for_each(|observer| observer.not_traced(kind, weight, why));
+    }
+
+    fn ray_ends(&mut self) {
+        self.iter_mut().for_each(Observer::ray_ends);
+    }
+}
+
 /// How many rays were traced, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RayCounts {
@@ -178,7 +221,8 @@ impl Observer for RayCounts {
             RayKind::Eye => self.eye += 1,
             RayKind::Reflected => self.reflected += 1,
             RayKind::Transmitted => self.transmitted += 1,
-            RayKind::Connected => self.shadow += 1,
+            // It is a shadow ray that has got through.
+            RayKind::Connected => {}
         }
     }
 

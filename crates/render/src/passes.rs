@@ -203,6 +203,18 @@ struct Sampling<'a, I> {
     direct: bool,
 }
 
+/// The edge of the blocks of pixels that an integrator looks at together.
+pub(crate) fn edge_of_blocks<I: Integrator>(integrator: &I) -> u32 {
+    integrator.together().isqrt()
+}
+
+/// The block with this edge of which a pixel is one. It is one of the picture, whatever part of that is rendered, so that pixels
+/// do not depend on it.
+pub(crate) fn block_of((x, y): (u32, u32), edge: u32, (width, height): (u32, u32)) -> Region {
+    let (x, y) = (x / edge * edge, y / edge * edge);
+    Region { x, y, width: edge.min(width - x), height: edge.min(height - y) }
+}
+
 /// A sample before it is traced.
 pub(crate) struct Begun {
     pub(crate) sampler: Sampler,
@@ -217,7 +229,7 @@ impl<I: Integrator> Sampling<'_, I> {
         let mut tile = SampledTile { region, pixels, account: Default::default() };
         match self.integrator.together() {
             0 | 1 => self.one_by_one(&mut tile, pass),
-            together => self.in_blocks(&mut tile, pass, together.isqrt()),
+            _ => self.in_blocks(&mut tile, pass, edge_of_blocks(self.integrator)),
         }
         tile
     }
@@ -237,15 +249,13 @@ impl<I: Integrator> Sampling<'_, I> {
     /// The samples of the same number of a block of pixels at a time, of this edge. Those of pixels that want no more, or are
     /// outside of what is rendered, are taken for the others.
     fn in_blocks(&self, tile: &mut SampledTile, pass: &Pass, edge: u32) {
-        let (width, height) = self.scene.picture_size();
         let wants = |(x, y): (u32, u32), number: u32| {
             let at = pass.region.index_of(x, y);
             (pass.from[at]..pass.to[at]).contains(&number)
         };
         let region = tile.region;
         for part in region.cells(edge) {
-            let (x, y) = (part.x / edge * edge, part.y / edge * edge);
-            let block = Region { x, y, width: edge.min(width - x), height: edge.min(height - y) };
+            let block = block_of((part.x, part.y), edge, self.scene.picture_size());
             let ats = || part.pixel_places().map(|(x, y)| pass.region.index_of(x, y));
             let first = ats().map(|at| pass.from[at]).min().unwrap_or(0);
             let end = ats().map(|at| pass.to[at]).max().unwrap_or(0);

@@ -6,13 +6,13 @@ use durer::imaging::{DecodeLimits, Image, Transfer};
 
 const RENDERS: u32 = 16;
 
-fn one(seed: u32) -> Image {
+fn one(path: &str, seed: u32) -> Image {
     let box_scene = include_str!("../../../../scenes/cornell.yaml");
     let (head, rest) = box_scene.split_once("# picture and settings\n").expect("the place of the settings");
     let (_, rest) = rest.split_once("# end of settings\n").expect("their end");
     let settings = format!(
         "picture: {{width: 64, height: 64}}\n\
-         render: {{integrator: {{path: {{max_depth: 8}}}}, samples: 16, seed: {seed}}}\n"
+         render: {{integrator: {{path: {{max_depth: 8{path}}}}}, samples: 16, seed: {seed}}}\n"
     );
     render(&format!("{head}{settings}{rest}"))
 }
@@ -28,11 +28,21 @@ fn reference() -> Image {
 /// pictures.
 #[test]
 fn every_block_agrees_with_the_reference() {
-    let (reference, renders) = (reference(), renders());
+    blocks_agree("", 0.002);
+}
+
+/// With paths that the 16 pixels of such a block make use of, whose noise is that of one.
+#[test]
+fn every_block_agrees_with_the_reference_if_paths_are_reused() {
+    blocks_agree(", reuse: 16", 0.001);
+}
+
+fn blocks_agree(path: &str, off_by: f64) {
+    let (reference, renders) = (reference(), renders(path));
     let brightness = |image: &Image| image.pixels.iter().map(|pixel| f64::from(pixel.luminance())).sum::<f64>();
     let ours = renders.iter().map(brightness).sum::<f64>() / f64::from(RENDERS);
     let ratio = ours / brightness(&reference);
-    assert!((ratio - 1.0).abs() < 0.002, "the picture is {ratio} times as bright");
+    assert!((ratio - 1.0).abs() < off_by, "the picture is {ratio} times as bright");
 
     let of_blocks = all_t(&renders, &reference, 4);
     let worst = of_blocks.iter().fold(0.0, |worst: f64, t| worst.max(t.abs()));
@@ -47,7 +57,16 @@ fn every_block_agrees_with_the_reference() {
 /// worst ones tell nothing; but no more are far off than chance has it, on either side, and half are on each.
 #[test]
 fn pixels_agree_with_the_reference() {
-    let t = all_t(&renders(), &reference(), 1);
+    pixels_agree("");
+}
+
+#[test]
+fn pixels_agree_with_the_reference_if_paths_are_reused() {
+    pixels_agree(", reuse: 16");
+}
+
+fn pixels_agree(path: &str) {
+    let t = all_t(&renders(path), &reference(), 1);
     let share = |is_meant: &dyn Fn(f64) -> bool| t.iter().filter(|t| is_meant(**t)).count() as f64 / t.len() as f64;
     // The quantiles of Student's t for 15 degrees of freedom that 1 and 5 % are beyond.
     let (of_100, of_20) = (share(&|t| t.abs() > 2.947), share(&|t| t.abs() > 2.131));
@@ -57,8 +76,8 @@ fn pixels_agree_with_the_reference() {
     assert!((brighter - 0.5).abs() < 0.03, "{brighter} are brighter");
 }
 
-fn renders() -> Vec<Image> {
-    (1..=RENDERS).map(one).collect()
+fn renders(path: &str) -> Vec<Image> {
+    (1..=RENDERS).map(|seed| one(path, seed)).collect()
 }
 
 /// Student's t of each component of each block.

@@ -6,11 +6,14 @@ use durer::{Limits, NoAssets, RenderOptions};
 fn paths_add_up_to_the_pixel_to_the_last_bit() {
     adds_up("path");
     adds_up("{path: {split: 3}}");
+    for reused in ["reuse: 4", "reuse: 16", "reuse: 64", "reuse: 16, split: 2", "reuse: 16, clamp: 0.1"] {
+        adds_up(&format!("{{path: {{{reused}}}}}"));
+    }
 }
 
 fn adds_up(integrator: &str) {
     let text = "
-        picture: {width: 8, height: 6}
+        picture: {width: 9, height: 6}
         render: {integrator: INTEGRATOR, samples: 5, filter: mitchell}
         background: [0.2, 0.3, 0.4]
         objects:
@@ -22,11 +25,11 @@ fn adds_up(integrator: &str) {
     let scene = durer::compile(&loaded.scene);
     let film = durer::render(&scene, &RenderOptions::default(), &()).unwrap();
     for y in 0..6 {
-        for x in 0..8 {
+        for x in 0..9 {
             let explained = durer::explain(&scene, x, y).unwrap();
             let bits = |color: durer::math::Rgb| color.to_array().map(f32::to_bits);
             assert_eq!(explained.samples.len(), 5);
-            assert_eq!(bits(explained.color), bits(film.pixels()[(y * 8 + x) as usize]), "{x},{y}");
+            assert_eq!(bits(explained.color), bits(film.pixels()[(y * 9 + x) as usize]), "{x},{y}");
             assert_eq!(bits(explained.sum()), bits(explained.color), "{x},{y}");
         }
     }

@@ -10,4 +10,5 @@ mod cornell;
 mod explained;
 mod furnaces;
 mod many_ways;
+mod reuse;
 mod support;

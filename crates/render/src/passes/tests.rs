@@ -57,9 +57,11 @@ impl Progress for Ticking {
 
 #[test]
 fn threads_and_stops_change_nothing() {
-    for filter in [PixelFilter::Box, PixelFilter::Mitchell { radius: 2.0 }] {
+    for (filter, reuse) in [(PixelFilter::Box, 1), (PixelFilter::Mitchell { radius: 2.0 }, 1), (PixelFilter::Box, 16)] {
         for noise in [None, Some(0.05)] {
             let scene = scene(70, 45, |settings| {
+                settings.integrator =
+                    Kind::Path(durer_scene::PathSettings { max_depth: 4, reuse, ..Default::default() });
                 (settings.filter, settings.noise) = (filter, noise);
                 settings.samples = Some(if noise.is_some() { 100 } else { 7 });
             });
@@ -72,7 +74,21 @@ fn threads_and_stops_change_nothing() {
             for tiles in [1, 2, 11, 1000] {
                 film = render_on(&scene, film, &options(2), &After(AtomicU64::new(tiles))).unwrap();
             }
-            assert_eq!(film, whole, "{filter:?} {noise:?}");
+            assert_eq!(film, whole, "{filter:?} {reuse} {noise:?}");
+        }
+    }
+}
+
+/// Blocks are those of the picture, and end with it.
+#[test]
+fn each_pixel_is_in_one_block() {
+    let picture = (13, 11);
+    for edge in [1, 2, 4, 8] {
+        for (x, y) in (Region { x: 0, y: 0, width: 13, height: 11 }).pixel_places() {
+            let block = block_of((x, y), edge, picture);
+            assert!(block.contains((x, y)) && block.x + block.width <= 13 && block.y + block.height <= 11);
+            assert!(block.pixel_places().all(|pixel| block_of(pixel, edge, picture) == block), "{edge}, {x} {y}");
+            assert!(block.x + block.width == 13 || block.width == edge);
         }
     }
 }

@@ -96,6 +96,7 @@ impl Explained<'_> {
         }
         match &ray.hit {
             Some(hit) => self.hit(page, hit),
+            None if ray.kind == RayKind::Connected => {}
             None => page.line("hits nothing"),
         }
         for contribution in ray.contributions.iter().filter(|c| words::light_of(c.source).is_none()) {

@@ -10,7 +10,7 @@ pub(super) fn ray(kind: RayKind) -> &'static str {
         RayKind::Eye => "ray of the eye",
         RayKind::Reflected => "reflected ray",
         RayKind::Transmitted => "transmitted ray",
-        RayKind::Connected => "ray to where a path was",
+        RayKind::Connected => "ray to a point that a path of this block of pixels has met",
     }
 }
 
@@ -34,7 +34,7 @@ pub(super) fn source(source: Source) -> &'static str {
         Source::Diffuse(_) => "diffuse",
         Source::Specular(_) => "highlight",
         Source::Light(_) => "light that was aimed at",
-        Source::Reused => "light that a path found",
+        Source::Reused => "light that was found there",
         Source::Shown => "what is shown of it",
     }
 }

@@ -44,7 +44,7 @@ pub(super) fn trace<O: Observer>(tracer: &PathTracer, scene: &CompiledScene, sam
         Member { path, paused, segments }
     });
     let mut members: Vec<Member<'_, O>> = begun.collect();
-    let mut junctions = Vec::with_capacity(members.len() * tracer.0.split as usize);
+    let mut junctions = Vec::with_capacity(members.len());
     for (index, member) in members.iter_mut().enumerate() {
         member.go_on(index, &mut junctions);
     }
@@ -55,12 +55,15 @@ pub(super) fn trace<O: Observer>(tracer: &PathTracer, scene: &CompiledScene, sam
         if junction.lights.iter().all(|(_, light)| light.is_black()) {
             continue;
         }
-        let member = &mut members[junction.member];
-        if !junction.look(scene, &views, &mut seen) {
-            member.path.add_own(junction);
+        let is_shared = junction.look(scene, &views, &mut seen);
+        seen.iter().for_each(|seen| members[seen.member].path.observer.shadow_ray());
+        if !is_shared {
+            let from = views.iter().find(|view| view.member == junction.member);
+            from.into_iter().for_each(|view| members[view.member].path.add_own(junction, view));
             continue;
         }
-        let density: f64 = seen.iter().map(|seen| seen.density).sum::<f64>();
+        seen.retain(|seen| !seen.is_dark);
+        let density: f64 = seen.iter().map(|seen| seen.density).sum();
         for &Seen { member, way, scattered, area, .. } in &seen {
             let light =
                 junction.toward(junction.frame.to_local(-way.direction)) * scattered * ((area / density) as f32);
@@ -118,6 +121,8 @@ struct Seen {
     area: f64,
     /// With which the vertex finds such points, per area.
     density: f64,
+    /// Something is between.
+    is_dark: bool,
 }
 
 impl<'a, O: Observer> Member<'a, O> {
@@ -152,7 +157,7 @@ impl<'a, O: Observer> Member<'a, O> {
             }
             path.end_rays(segments);
         }
-        (path.state, path.sampler, path.media) = (state, sampler, Default::default());
+        (path.state, path.sampler, path.share, path.media) = (state, sampler, 1.0, Default::default());
     }
 
     fn view(&mut self, index: usize) -> Option<View<'a>> {
@@ -247,24 +252,26 @@ impl<'a, O: Observer> Path<'a, O> {
     }
 
     /// Adds light from a junction that nobody else makes use of.
-    fn add_own(&mut self, junction: &Junction<'_>) {
+    fn add_own(&mut self, junction: &Junction<'_>, view: &View<'_>) {
         let weight = std::mem::replace(&mut self.state.weight, junction.weight);
-        let Shading { surface, direction, .. } = junction.shading;
-        self.add_reused(Ray { origin: surface.point, direction: -direction }, junction.toward(junction.out));
+        let way = Ray { origin: view.paused.receiver.point, direction: junction.shading.direction };
+        self.add_reused(way, junction.toward(junction.out));
         self.state.weight = weight;
     }
 }
 
 impl Junction<'_> {
-    /// Finds from which vertices it is seen; false if not from that of its own path.
+    /// Finds from which vertices it is seen; false if not from that of its own path, or if its light is no number, which shall
+    /// spoil but one sample.
     fn look(&self, scene: &CompiledScene, views: &[View<'_>], seen: &mut Vec<Seen>) -> bool {
         seen.clear();
+        if !self.lights.iter().all(|(_, light)| light.is_finite()) {
+            return false;
+        }
         seen.extend(views.iter().filter_map(|view| self.from(view)));
-        let mut at = 0;
-        let mut is_dark = [false; 64];
         let Shading { surface, .. } = self.shading;
         let before = surface.point + self.shading.face() * surface.offset;
-        for chunk in seen.chunks(LANES) {
+        for chunk in seen.chunks_mut(LANES) {
             let mut reach = [0.0; LANES];
             let rays: ArrayVec<Ray, LANES> = chunk
                 .iter()
@@ -276,17 +283,11 @@ impl Junction<'_> {
                 })
                 .collect();
             let dark = scene.world.any_hits(&Packet::new(&rays), &reach, u32::MAX);
-            for lane in 0..chunk.len() {
-                is_dark[at] = dark >> lane & 1 == 1;
-                at += 1;
+            for (lane, seen) in chunk.iter_mut().enumerate() {
+                seen.is_dark = dark >> lane & 1 == 1;
             }
         }
-        let mut at = 0;
-        seen.retain(|_| {
-            at += 1;
-            !is_dark[at - 1]
-        });
-        seen.iter().any(|seen| seen.member == self.member)
+        seen.iter().any(|seen| seen.member == self.member && !seen.is_dark)
     }
 
     /// How a vertex sees it, if nothing is between.
@@ -313,6 +314,7 @@ impl Junction<'_> {
             scattered,
             area,
             density: pdf * area,
+            is_dark: false,
         })
     }
 
