@@ -158,7 +158,8 @@ pub struct PathSettings {
     /// Samples brighter than this (largest component) are lowered to it, which takes fireflies away and some light with
     /// them; `None` leaves all as it is.
     pub clamp: Option<f32>,
-    /// How many paths go on from the first surface that spreads light; from 1.
+    /// How many paths go on from the first surface that spreads light; from 1. Where paths are reused, all but the first of them
+    /// only look for what cannot be.
     pub split: u32,
     /// By how many neighboring pixels a path is used: by its own alone, or by those of a block of 2 × 2, 4 × 4 or 8 × 8; one of
     /// [`PathSettings::REUSES`].

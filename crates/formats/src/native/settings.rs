@@ -118,7 +118,7 @@ pub(super) fn warn_of_unused(
 record!(PathSettings {
     max_depth: u32 = 16 => "The most surfaces that light may meet on its way from a light to the eye, 1 to 1e6.";
     clamp: Option<f32> = None => "Samples brighter than this are lowered to it: it takes away fireflies, and some light.";
-    split: u32 = 1 => "So many paths go on from the first surface of each sample that spreads light, 1 to 64: a sample takes longer, and where most light comes by way of other things it has less noise for the time.";
+    split: u32 = 1 => "So many paths go on from the first surface of each sample that spreads light, 1 to 64: a sample takes longer, and where most light comes by way of other things it has less noise for the time. With `reuse` all but the first only look for what cannot be shared.";
     reuse: u32 = 1 => "So many neighboring pixels use each path: 1, or 4, 16 or 64, those of a block. Where most light comes by way of other things it takes far less time to the same noise, and what is left of that is alike in the pixels of a block.";
 });
 

@@ -231,7 +231,7 @@ impl Scene {
         let mut text = format!(
             "camera: {{position: {}, look_at: {}, fov: {}}}\n\
              picture: {{width: {size}, height: {size}}}\n\
-             render: {{integrator: {{path: {{max_depth: {}, split: 4}}}}}}\n\
+             render: {{integrator: {{path: {{max_depth: {}, split: 4, reuse: 16}}}}}}\n\
              lights: []\n",
             v(self.eye),
             v(self.target),
