@@ -259,6 +259,8 @@ struct Recorder<'s> {
 
 impl Observer for Recorder<'_> {
     fn ray_begins(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb) {
+        // Of light that is reused no contribution follows: what others make of it is weighed otherwise.
+        self.weighing = None;
         let Ray { origin, direction } = *ray;
         self.open.push(RayExplanation {
             kind,
@@ -321,6 +323,7 @@ impl Observer for Recorder<'_> {
     }
 
     fn ray_ends(&mut self) {
+        self.weighing = None;
         let Some(ray) = self.open.pop() else { return };
         match self.open.last_mut() {
             Some(parent) => parent.children.push(ray),

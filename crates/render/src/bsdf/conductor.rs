@@ -4,7 +4,7 @@ use super::fresnel::Reflectance;
 use super::ggx::Ggx;
 use super::tables::REFLECTED;
 use super::warps::{cosine_hemisphere, cosine_pdf};
-use super::{BROAD, How, Scattered};
+use super::{How, Scattered};
 use durer_math::{DVec2, DVec3, Rgb};
 
 /// A metal.
@@ -35,7 +35,7 @@ impl Conductor {
     }
 
     pub(crate) fn is_broad(&self) -> bool {
-        self.rough.is_some_and(|rough| rough.alpha >= BROAD)
+        self.rough.is_some_and(|rough| rough.ggx.is_broad())
     }
 
     pub(crate) fn is_specular(&self) -> bool {

@@ -4,6 +4,7 @@
 //! Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 2014. Directions are in the local frame; `h` are normals of
 //! microfacets, which have h.z > 0.
 
+use super::BROAD;
 use durer_math::{DVec2, DVec3, functions::cos_sin_of_turns};
 use std::f64::consts::PI;
 
@@ -42,6 +43,11 @@ impl Ggx {
     /// The distribution with these widths; `None` if the surface is smooth.
     pub(crate) fn new(alpha: DVec2) -> Option<Ggx> {
         (alpha.max_element() >= SMOOTH).then(|| Ggx { alpha: alpha.max(DVec2::splat(0.1 * SMOOTH)) })
+    }
+
+    /// True if it spreads light [broadly](super::Bsdf::is_broad), along both axes.
+    pub(crate) fn is_broad(&self) -> bool {
+        self.alpha.min_element() >= BROAD
     }
 
     /// The width of an even distribution that is about as rough.

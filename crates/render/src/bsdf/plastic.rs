@@ -5,11 +5,11 @@
 //! what the coat reflects, the base gives (1 - E(o)) (1 - E(i)) / (π (1 - Ē)) · a (1 - F) / (1 - a F). All of white is given
 //! back by a white base, whatever the coat.
 
+use super::Scattered;
 use super::fresnel;
 use super::ggx::Ggx;
 use super::tables::DIELECTRIC;
 use super::warps::{cosine_hemisphere, cosine_pdf};
-use super::{BROAD, Scattered};
 use durer_math::{DVec2, DVec3, Rgb};
 
 /// A coat over a base.
@@ -49,7 +49,7 @@ impl Plastic {
     }
 
     pub(crate) fn is_broad(&self) -> bool {
-        self.rough.is_none_or(|(_, alpha)| alpha >= BROAD)
+        self.rough.is_none_or(|(ggx, _)| ggx.is_broad())
     }
 
     pub(crate) fn is_specular(&self) -> bool {

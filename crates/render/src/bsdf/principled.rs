@@ -13,7 +13,7 @@ use super::sheen::Sheen;
 use super::sheet::Sheet;
 use super::tables::REFLECTED;
 use super::warps::{EVEN_PDF, cosine_hemisphere, cosine_pdf, even_hemisphere};
-use super::{BROAD, How, Scattered};
+use super::{How, Scattered};
 use durer_math::{DVec2, DVec3, Rgb};
 
 /// What a principled surface is made of, at a point.
@@ -148,7 +148,7 @@ impl Principled {
     }
 
     pub(crate) fn is_broad(&self) -> bool {
-        self.ggx.is_some() && self.alpha >= BROAD && self.through.is_none() && self.coat.is_none()
+        self.ggx.is_some_and(|ggx| ggx.is_broad()) && self.through.is_none() && self.coat.is_none()
     }
 
     pub(crate) fn is_specular(&self) -> bool {

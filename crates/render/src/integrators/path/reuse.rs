@@ -4,8 +4,9 @@
 //! that spreads light, to the next surface, its junction, and what arrives there is found out once. Then every vertex that sees
 //! a junction takes light from it. Junctions are found from all vertices, each with its own density, so the balance heuristic
 //! weighs them (Veach 1997, §9.2): with n vertices x and densities p, light from a junction y counts f(x, y) / Σ p(xₖ → y), where
-//! the sum is over all that see y. That is never more than what x, had it found y itself, would make of it: light that is near
-//! to one pixel makes no others bright.
+//! the sum is over all that see y. That is never more than what x, had it found y itself, would make of the same light: what is
+//! near to one pixel makes no others bright. But a junction scatters light in another way to each vertex, and looked for light as
+//! the one liked that found it; so only surfaces that look [much the same](Bsdf::is_broad) from everywhere may be junctions.
 //!
 //! The sum is right only if all who see a junction would have found it as they are taken to, so whoever may not have, has no part:
 //! who sees it from behind a hole, or so flatly that it is shaded by another normal. Its own path then goes on by itself.
@@ -62,9 +63,8 @@ pub(super) fn trace<O: Observer>(tracer: &PathTracer, scene: &CompiledScene, sam
             from.into_iter().for_each(|view| members[view.member].path.add_own(junction, view));
             continue;
         }
-        seen.retain(|seen| !seen.is_dark);
-        let density: f64 = seen.iter().map(|seen| seen.density).sum();
-        for &Seen { member, way, scattered, area, .. } in &seen {
+        let density: f64 = seen.iter().filter(|seen| !seen.is_dark).map(|seen| seen.density).sum();
+        for &Seen { member, way, scattered, area, .. } in seen.iter().filter(|seen| seen.brings_light()) {
             let light =
                 junction.toward(junction.frame.to_local(-way.direction)) * scattered * ((area / density) as f32);
             members[member].path.add_reused(way, light);
@@ -79,7 +79,7 @@ pub(super) fn trace<O: Observer>(tracer: &PathTracer, scene: &CompiledScene, sam
 /// One of the samples.
 struct Member<'a, O> {
     path: Path<'a, O>,
-    /// Where it first met a surface that spreads light.
+    /// Where it first met a surface that spreads light, if others may take light there from its path.
     paused: Option<Paused<'a>>,
     /// Up to there.
     segments: u32,
@@ -125,15 +125,21 @@ struct Seen {
     is_dark: bool,
 }
 
+impl Seen {
+    fn brings_light(&self) -> bool {
+        !self.is_dark && !self.scattered.is_black()
+    }
+}
+
 impl<'a, O: Observer> Member<'a, O> {
     /// Goes on from the vertex, if there is one.
     fn go_on(&mut self, index: usize, junctions: &mut Vec<Junction<'a>>) {
-        let Some(paused) = &self.paused else { return };
-        let (path, vertex) = (&mut self.path, paused.vertex());
-        if !path.can_reuse_at(&vertex) {
-            path.branch(&vertex);
-            return;
+        let path = &mut self.path;
+        if let Some(alone) = self.paused.take_if(|paused| !path.can_reuse_at(&paused.vertex())) {
+            path.branch(&alone.vertex());
         }
+        let Some(paused) = &self.paused else { return };
+        let vertex = paused.vertex();
         let ways = path.tracer.0.split;
         let (sampler, state) = (path.sampler, path.state);
         for number in 0..ways {
@@ -161,8 +167,7 @@ impl<'a, O: Observer> Member<'a, O> {
     }
 
     fn view(&mut self, index: usize) -> Option<View<'a>> {
-        let paused = self.paused.take().filter(|paused| self.path.can_reuse_at(&paused.vertex()))?;
-        Some(View { member: index, depth: self.path.state.depth, paused })
+        Some(View { member: index, depth: self.path.state.depth, paused: self.paused.take()? })
     }
 }
 
