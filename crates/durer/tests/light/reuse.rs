@@ -31,32 +31,37 @@ fn beside(material: &str, more: &str) -> String {
     )
 }
 
+/// Mean and the square of its standard error of what is measured of independent renders.
+fn estimate(of: impl Fn(u32) -> Image, measured: impl Fn(&Image) -> Vec<f64>) -> Vec<(f64, f64)> {
+    const RENDERS: u32 = 8;
+    let n = f64::from(RENDERS);
+    let found: Vec<Vec<f64>> = (1..=RENDERS).map(|seed| measured(&of(seed))).collect();
+    let estimate_of = |part: usize| {
+        let mean = found.iter().map(|one| one[part]).sum::<f64>() / n;
+        let squares = found.iter().map(|one| (one[part] - mean).powi(2)).sum::<f64>();
+        (mean, squares / (n * (n - 1.0)))
+    };
+    (0..found[0].len()).map(estimate_of).collect()
+}
+
+/// All components of all pixels.
+fn components(image: &Image) -> Vec<f64> {
+    image.pixels.iter().flat_map(|pixel| pixel.to_array()).map(f64::from).collect()
+}
+
 /// The mean of each component of each half of a picture.
-fn halves(image: &Image) -> [f64; 6] {
-    let mut sums = [0.0; 6];
+fn halves(image: &Image) -> Vec<f64> {
+    let mut sums = vec![0.0; 6];
     for (index, pixel) in image.pixels.iter().enumerate() {
         let right = usize::from(index as u32 % image.width > image.width / 2);
         for (channel, component) in pixel.to_array().into_iter().enumerate() {
             sums[3 * right + channel] += f64::from(component);
         }
     }
-    sums.map(|sum| sum / (image.pixels.len() / 2) as f64)
+    sums.into_iter().map(|sum| sum / (image.pixels.len() / 2) as f64).collect()
 }
 
-/// Mean and the square of its standard error, of independent renders.
-fn estimate(of: impl Fn(u32) -> Image) -> Vec<(f64, f64)> {
-    const RENDERS: u32 = 8;
-    let n = f64::from(RENDERS);
-    let found: Vec<[f64; 6]> = (1..=RENDERS).map(|seed| halves(&of(seed))).collect();
-    let estimate_of = |part: usize| {
-        let mean = found.iter().map(|one| one[part]).sum::<f64>() / n;
-        let squares = found.iter().map(|one| (one[part] - mean).powi(2)).sum::<f64>();
-        (mean, squares / (n * (n - 1.0)))
-    };
-    (0..6).map(estimate_of).collect()
-}
-
-/// The same light within its error, which is to be small enough for that to say something.
+/// The same light in both halves within its error, which is to be small enough for that to say something.
 fn assert_same(name: &str, plain: &[(f64, f64)], other: &[(f64, f64)]) {
     for (part, (&(mean, square), &(found, squared))) in plain.iter().zip(other).enumerate() {
         let error = (square + squared).sqrt();
@@ -66,13 +71,27 @@ fn assert_same(name: &str, plain: &[(f64, f64)], other: &[(f64, f64)]) {
     }
 }
 
+/// The same light in each pixel: wrong weights may take from one what they give to another of the same block. Differences, as
+/// parts of their errors, follow Student's distribution with 14 degrees of freedom; their squares have a mean of 14/12.
+fn assert_same_pixels(name: &str, plain: &[(f64, f64)], other: &[(f64, f64)]) {
+    let both = plain.iter().zip(other).filter(|((_, square), (_, squared))| square + squared > 0.0);
+    let squares: Vec<f64> = both.map(|((a, aa), (b, bb))| (a - b).powi(2) / (aa + bb)).collect();
+    let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+    assert!(mean < 1.6, "{name}: the mean square of the differences is {mean} times that of their errors");
+}
+
 fn same_light(name: &str, things: &str) {
     let of = |path: &str, samples: u32| {
-        estimate(|seed| render(&room(&format!("max_depth: 5, {path}"), samples, seed, things)))
+        let images: Vec<Image> =
+            (1..=8).map(|seed| render(&room(&format!("max_depth: 5, {path}"), samples, seed, things))).collect();
+        let image = |seed: u32| images[seed as usize - 1].clone();
+        [estimate(image, halves), estimate(image, components)]
     };
-    let plain = of("reuse: 1", 256);
+    let [plain, plain_pixels] = of("reuse: 1", 256);
     for way in WAYS {
-        assert_same(&format!("{name}, {way}"), &plain, &of(way, 48));
+        let (name, [found, pixels]) = (format!("{name}, {way}"), of(way, 48));
+        assert_same(&name, &plain, &found);
+        assert_same_pixels(&name, &plain_pixels, &pixels);
     }
 }
 
@@ -155,7 +174,7 @@ fn glass() {
 fn fog() {
     let fog = "fog: {exponential: {color: 0.2, distance: 4}}\n";
     let of = |path: &str, samples: u32| {
-        estimate(|seed| render(&(room(path, samples, seed, &beside("matte: {color: 0.7}", "")) + fog)))
+        estimate(|seed| render(&(room(path, samples, seed, &beside("matte: {color: 0.7}", "")) + fog)), halves)
     };
     assert_same("fog", &of("reuse: 1", 256), &of("reuse: 16", 256));
 }
@@ -197,7 +216,7 @@ fn depths() {
             // A lamp that shines down, so that there is some light in two steps.
             let things =
                 beside("matte: {color: 0.7}", "- sphere: {center: [1, 0.5, 0], radius: 0.2, material: {emission: 20}}");
-            estimate(|seed| render(&room(&path, samples, seed, &things)))
+            estimate(|seed| render(&room(&path, samples, seed, &things)), halves)
         };
         let plain = of("reuse: 1", 256);
         for way in WAYS {
@@ -303,7 +322,7 @@ fn parts_are_those_of_the_whole() {
 #[test]
 fn things_without_background() {
     let of = |path: &str, samples: u32| {
-        estimate(|seed| {
+        let image = |seed: u32| {
             let text = format!(
                 "picture: {{width: 13, height: 11}}\n\
                  render: {{integrator: {{path: {{{path}}}}}, samples: {samples}, seed: {seed}}}\n\
@@ -316,7 +335,8 @@ fn things_without_background() {
             let mut scene = durer::compile(&load(&text));
             scene.leave_out_background();
             film(&scene, RenderOptions::default()).develop()
-        })
+        };
+        estimate(image, halves)
     };
     let plain = of("reuse: 1", 256);
     for way in WAYS {
