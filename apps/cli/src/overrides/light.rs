@@ -9,9 +9,10 @@ use durer::scene::{Integrator, PathSettings, Picture, RenderSettings};
 #[derive(Args, Debug, Default)]
 #[command(next_help_heading = "Instead of what the scene says")]
 pub(crate) struct Light {
-    /// What is computed: `whitted`, `path[:DEPTH[,CLAMP]]`, `ambient_occlusion[:DISTANCE]`, `normals`, `depth` or `uv`
-    #[arg(long, value_name = "WHAT", value_parser = integrator)]
-    integrator: Option<Integrator>,
+    /// What is computed: `whitted`, `path[:DEPTH[,CLAMP]]`, `ambient_occlusion[:DISTANCE]`, `normals`, `depth` or `uv`. What is
+    /// not given of `path` stays as the file has it
+    #[arg(long, value_name = "WHAT", value_parser = choice)]
+    integrator: Option<Choice>,
 
     /// Samples a pixel where light is sampled at random, from 1 to 1000000; at most if there is a noise or time to reach
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
@@ -45,7 +46,7 @@ pub(crate) struct Light {
 
 impl Light {
     pub(super) fn change_render(&self, render: &mut RenderSettings) {
-        render.integrator = self.integrator.unwrap_or(render.integrator);
+        render.integrator = self.integrator.map_or(render.integrator, |choice| choice.after(&render.integrator));
         render.samples = self.samples.or(render.samples);
         render.noise = self.noise.or(render.noise);
         render.time = self.time.or(render.time);
@@ -86,6 +87,33 @@ impl Light {
     }
 }
 
+/// An integrator as an option gives it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Choice {
+    integrator: Integrator,
+    /// So many of its numbers were given.
+    given: usize,
+}
+
+impl Choice {
+    /// What it makes of the file's: of a path tracer, what is not given stays as it is.
+    fn after(self, file: &Integrator) -> Integrator {
+        match (self.integrator, *file) {
+            (Integrator::Path(PathSettings { max_depth, clamp, .. }), Integrator::Path(path)) => match self.given {
+                0 => Integrator::Path(path),
+                1 => Integrator::Path(PathSettings { max_depth, ..path }),
+                _ => Integrator::Path(PathSettings { max_depth, clamp, ..path }),
+            },
+            (chosen, _) => chosen,
+        }
+    }
+}
+
+fn choice(text: &str) -> Result<Choice, String> {
+    let given = text.split_once(':').map_or(0, |(_, numbers)| numbers.split(',').count());
+    Ok(Choice { integrator: integrator(text)?, given })
+}
+
 fn integrator(text: &str) -> Result<Integrator, String> {
     let wrong = || {
         "expected `whitted`, `path[:DEPTH[,CLAMP]]`, `ambient_occlusion[:DISTANCE]`, `normals`, `depth` or `uv`"
@@ -121,6 +149,19 @@ fn integrator(text: &str) -> Result<Integrator, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_not_given_of_a_path_tracer_stays() {
+        let file = PathSettings { max_depth: 3, clamp: Some(2.0), split: 2, reuse: 16 };
+        let after = |word: &str, file| choice(word).map(|choice| choice.after(&file));
+        assert_eq!(after("path", Integrator::Path(file)), Ok(Integrator::Path(file)));
+        let deeper = PathSettings { max_depth: 8, ..file };
+        assert_eq!(after("path:8", Integrator::Path(file)), Ok(Integrator::Path(deeper)));
+        let brighter = PathSettings { clamp: Some(5.0), ..deeper };
+        assert_eq!(after("path:8,5", Integrator::Path(file)), Ok(Integrator::Path(brighter)));
+        assert_eq!(after("whitted", Integrator::Path(file)), Ok(Integrator::Whitted));
+        assert_eq!(after("path", Integrator::Whitted), Ok(Integrator::PATH));
+    }
 
     #[test]
     fn integrators_are_read_as_scene_files_have_them() {

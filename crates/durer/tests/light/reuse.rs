@@ -81,15 +81,20 @@ fn assert_same_pixels(name: &str, plain: &[(f64, f64)], other: &[(f64, f64)]) {
 }
 
 fn same_light(name: &str, things: &str) {
+    same_light_by(48, name, things);
+}
+
+/// With so many samples of reused paths, and five times as many of others.
+fn same_light_by(samples: u32, name: &str, things: &str) {
     let of = |path: &str, samples: u32| {
         let images: Vec<Image> =
             (1..=8).map(|seed| render(&room(&format!("max_depth: 5, {path}"), samples, seed, things))).collect();
         let image = |seed: u32| images[seed as usize - 1].clone();
         [estimate(image, halves), estimate(image, components)]
     };
-    let [plain, plain_pixels] = of("reuse: 1", 256);
+    let [plain, plain_pixels] = of("reuse: 1", 5 * samples);
     for way in WAYS {
-        let (name, [found, pixels]) = (format!("{name}, {way}"), of(way, 48));
+        let (name, [found, pixels]) = (format!("{name}, {way}"), of(way, samples));
         assert_same(&name, &plain, &found);
         assert_same_pixels(&name, &plain_pixels, &pixels);
     }
@@ -147,6 +152,10 @@ fn what_is_seen_through() {
     ] {
         same_light(material, &sheet(material));
     }
+    // Much light comes from what is partly there in some colors.
+    let ceiling = "- rectangle: {corner: [-1.8, 1.5, -1.8], edges: [[0, 0, 3.6], [3.6, 0, 0]], \
+                   material: {color: white, specular: 0, opacity: [1, 0.6, 0.2]}}";
+    same_light_by(96, "a ceiling that is partly there", &beside("matte: {color: 0.7}", ceiling));
 }
 
 /// After ways that end in glass, and where the eye is in glass itself.
@@ -202,7 +211,8 @@ fn other_normals_than_the_surface_has() {
         let two = gem([-0.6, -0.4, -0.2], material) + &gem([0.5, -0.4, -0.1], material);
         same_light(&format!("gems of {material}"), &two);
     }
-    for relief in [relief, waves] {
+    let steep = "matte: {color: 0.8, bump: {height: {noise: {size: 0.2}}, size: 0.6}}";
+    for relief in [relief, waves, steep] {
         same_light(relief, &beside(relief, ""));
     }
 }
