@@ -39,10 +39,19 @@ pub(crate) trait Integrator: Sync {
     /// The light of samples that are taken together: any ones of a pixel, or those with the same number of all pixels of a
     /// block.
     fn radiances<O: Observer>(&self, scene: &CompiledScene, samples: &mut [&mut Together<'_, O>]) {
-        for sample in samples {
-            let Together { ray, known, sampler, observer, light } = &mut **sample;
-            *light = self.radiance(scene, ray, *known, sampler, observer);
-        }
+        one_by_one(self, scene, samples);
+    }
+}
+
+/// The light of samples of which each is taken by itself.
+pub(crate) fn one_by_one<I: Integrator + ?Sized, O: Observer>(
+    integrator: &I,
+    scene: &CompiledScene,
+    samples: &mut [&mut Together<'_, O>],
+) {
+    for sample in samples {
+        let Together { ray, known, sampler, observer, light } = &mut **sample;
+        *light = integrator.radiance(scene, ray, *known, sampler, observer);
     }
 }
 

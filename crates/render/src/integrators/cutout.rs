@@ -1,7 +1,7 @@
 //! Pictures of things without what is behind them: where the eye's rays meet nothing, nothing is shown, and how often that is
 //! so is a picture of its own. What is but partly there counts as there, with what is seen through it; only holes do not.
 
-use super::{Integrator, Together};
+use super::{Integrator, Together, one_by_one};
 use crate::compile::CompiledScene;
 use crate::holes::{Known, meet};
 use crate::observer::{Observer, RayKind, SurfaceSeen};
@@ -65,9 +65,7 @@ impl<I: Integrator> Integrator for Cutout<'_, I> {
                 Shown::Coverage => false,
             });
         self.integrator.radiances(scene, &mut to_show);
-        for Together { ray, known, sampler, observer, light } in alone.iter_mut().map(|sample| &mut **sample) {
-            *light = self.radiance(scene, ray, *known, sampler, observer);
-        }
+        one_by_one(self, scene, &mut alone);
     }
 }
 

@@ -11,7 +11,7 @@
 
 mod reuse;
 
-use super::{Integrator, Together};
+use super::{Integrator, Together, one_by_one};
 use crate::bsdf::{Bsdf, How};
 use crate::compile::CompiledScene;
 use crate::emitters::Receiver;
@@ -65,13 +65,9 @@ impl Integrator for PathTracer {
     }
 
     fn radiances<O: Observer>(&self, scene: &CompiledScene, samples: &mut [&mut Together<'_, O>]) {
-        if self.0.reuse > 1 {
-            reuse::trace(self, scene, samples);
-            return;
-        }
-        for sample in samples {
-            let Together { ray, known, sampler, observer, light } = &mut **sample;
-            *light = self.radiance(scene, ray, *known, sampler, observer);
+        match self.0.reuse {
+            1 => one_by_one(self, scene, samples),
+            _ => reuse::trace(self, scene, samples),
         }
     }
 }
@@ -118,7 +114,7 @@ struct Vertex<'v, 'a> {
     receiver: &'v Receiver,
 }
 
-/// Where a path was paused.
+/// Where a path was paused: a copy of the vertex, which the many where none is do without.
 struct Paused<'a> {
     shading: Shading<'a>,
     frame: Frame,
@@ -249,7 +245,7 @@ impl<'a, O: Observer> Path<'a, O> {
         for number in 0..ways {
             (self.sampler, self.media) = (sampler.split(number, ways), media.clone());
             self.state = State { weight: state.weight * self.share, ..state };
-            if self.turn(vertex, ways).is_some() {
+            if self.turn(vertex, ways) {
                 self.state.met += 1;
                 self.follow_to_the_end();
             }
@@ -336,17 +332,17 @@ impl<'a, O: Observer> Path<'a, O> {
         if !is_specular {
             self.aim(&vertex, 1);
         }
-        self.turn(&vertex, 1).is_some()
+        self.turn(&vertex, 1)
     }
 
-    /// The next segment from a surface, in a direction that it likes; one of so many. Gives the chance with which the path
-    /// went on, `None` if it does not.
+    /// The next segment from a surface, in a direction that it likes; one of so many. False if there is none.
     #[inline]
-    fn turn(&mut self, vertex: &Vertex<'_, '_>, ways: u32) -> Option<f32> {
+    fn turn(&mut self, vertex: &Vertex<'_, '_>, ways: u32) -> bool {
         let Vertex { shading, frame, out, bsdf, indices, receiver } = vertex;
         let step = self.step();
         let lobe = if bsdf.has_one_lobe() { 0.0 } else { self.sampler.one(step, Purpose::Lobe) };
-        let scattered = bsdf.sample(*out, lobe, self.sampler.two(step, Purpose::Direction))?;
+        let at = self.sampler.two(step, Purpose::Direction);
+        let Some(scattered) = bsdf.sample(*out, lobe, at) else { return false };
         let passes = scattered.direction.z < 0.0;
         let direction = frame.to_world(scattered.direction).normalize();
         let mut weight = scattered.weight;
@@ -359,16 +355,16 @@ impl<'a, O: Observer> Path<'a, O> {
         let survival = self.survival();
         self.observer.scattering(&Scattering { direction, pdf, weight, survival });
         if !self.survives(survival) {
-            return None;
+            return false;
         }
         match scattered.how {
             How::Straight => {
                 self.pass(shading, shading.bounds_medium);
-                return Some(survival);
+                return true;
             }
             How::Spread { pdf } => {
                 if shading.is_on_far_side(direction) != passes {
-                    return None;
+                    return false;
                 }
                 self.state.aimed = Some(Aimed { receiver: **receiver, pdf: pdf * f64::from(ways) });
             }
@@ -388,7 +384,7 @@ impl<'a, O: Observer> Path<'a, O> {
         } else {
             self.go_on(RayKind::Reflected, shading.ray_back(direction));
         }
-        Some(survival)
+        true
     }
 
     /// Where the longest path ends, its last segment goes on through what lets light pass straight, as shadow rays do.

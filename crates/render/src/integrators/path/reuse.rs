@@ -148,7 +148,7 @@ impl<'a, O: Observer> Member<'a, O> {
             path.state = State { weight: state.weight * path.share, ..state };
             path.media = Default::default();
             path.pause = Pause::AfterSurfaces(state.met + 1);
-            if path.turn(&vertex, ways).is_none() {
+            if !path.turn(&vertex, ways) {
                 continue;
             }
             if !path.has_spread_since(state.depth) {
@@ -207,7 +207,7 @@ impl<'a, O: Observer> Path<'a, O> {
         }
         let State { depth, weight, .. } = self.state;
         self.state.weight = Rgb::WHITE;
-        if self.turn(found, 1).is_some() {
+        if self.turn(found, 1) {
             self.pause = Pause::Nowhere;
             self.state.met += 1;
             match self.state.aimed.filter(|_| self.has_spread_since(depth)) {
