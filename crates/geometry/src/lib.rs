@@ -20,7 +20,7 @@ pub use bounds::Bounds;
 pub use bvh::build::{BuildFor, Plan};
 pub use bvh::traverse::Work;
 pub use packet::{LANES, Packet, PacketHits};
-pub use primitive::{Aimable, Primitive, Surface};
+pub use primitive::{Aimable, Primitive, Round, Surface};
 pub use ray::{Crossing, Ray};
 pub use sample::{Aim, Extent};
 pub use seen::{Goal, Pinhole, Seen, Sight, Sights, Way};

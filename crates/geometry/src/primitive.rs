@@ -62,8 +62,10 @@ const MOST_CROSSINGS: u32 = 100_000;
 mod flat;
 pub(crate) mod operand;
 mod pieces;
+mod round;
 
 pub use pieces::Aimable;
+pub use round::Round;
 
 /// A shape placed in the world by an affine map, which may scale, shear and mirror it.
 #[derive(Clone, Debug)]

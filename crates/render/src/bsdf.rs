@@ -181,6 +181,30 @@ impl Bsdf {
         (scattered.direction.z.abs() >= EDGE_ON).then_some(scattered)
     }
 
+    /// The one direction to a side in which a smooth boundary or mirror scatters, with the chance that [`Bsdf::sample`] takes it in
+    /// its weight: who goes there goes on purpose. `None` if there is none, or if the surface is another.
+    pub(crate) fn only(&self, out: DVec3, passes: bool) -> Option<Scattered> {
+        if out.z < EDGE_ON {
+            return None;
+        }
+        match self {
+            Bsdf::Dielectric(dielectric) => dielectric.only(out, passes),
+            Bsdf::Conductor(conductor) if !passes && conductor.is_specular() => {
+                conductor.sample(out, 0.0, DVec2::ZERO)
+            }
+            Bsdf::Mirror(color) if !passes => Some(Scattered::mirrored(out, *color)),
+            Bsdf::Diffuse(_)
+            | Bsdf::OrenNayar(_)
+            | Bsdf::Conductor(_)
+            | Bsdf::Mirror(_)
+            | Bsdf::Clear(_)
+            | Bsdf::Sheet(_)
+            | Bsdf::Plastic(_)
+            | Bsdf::Classic(_)
+            | Bsdf::Principled(_) => None,
+        }
+    }
+
     /// What light that goes straight on keeps, if the surface lets it: what [`How::Straight`] is sampled for.
     pub(crate) fn straight(&self, out: DVec3) -> Rgb {
         match self {

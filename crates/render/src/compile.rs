@@ -10,6 +10,7 @@ mod tree;
 
 use crate::background::Background;
 use crate::camera::Camera;
+use crate::casters::Casters;
 use crate::emitters::Emitters;
 use crate::fog::Fog;
 use crate::integrators::cutout::Shown;
@@ -48,6 +49,8 @@ pub struct CompiledScene {
     pub(crate) lights: Vec<Light>,
     /// All that gives light.
     pub(crate) emitters: Emitters,
+    /// What throws light of the sky.
+    pub(crate) casters: Casters,
     /// For each light that shines from a point, what is seen from there.
     pub(crate) light_vantages: Vec<Option<Vantage>>,
     pub(crate) camera: Camera,
@@ -129,6 +132,7 @@ pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
         eye_vantage: camera.eye().and_then(|eye| world.vantage(eye, OPAQUE | CLEAR)),
         camera,
         emitters: Emitters::default(),
+        casters: Casters::default(),
         light_vantages: vantages(&lights, &world),
         lights,
         world,
@@ -148,6 +152,7 @@ pub fn compile_for(scene: &CheckedScene, simd: SimdLevel) -> CompiledScene {
     if looks_for_light(&scene.render) {
         compiled.emitters = Emitters::of(&compiled, &mean_emission(&compiled.materials, scene));
     }
+    compiled.casters = Casters::of(&compiled);
     compiled
 }
 

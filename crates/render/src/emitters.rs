@@ -6,7 +6,7 @@
 
 mod shapes;
 mod sky;
-mod tree;
+pub(crate) mod tree;
 
 use crate::background::Look;
 use crate::compile::CompiledScene;

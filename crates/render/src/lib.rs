@@ -7,6 +7,7 @@ mod antialias;
 mod background;
 mod bsdf;
 mod camera;
+mod casters;
 mod compile;
 #[allow(dead_code)]
 mod emitters;

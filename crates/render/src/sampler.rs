@@ -40,6 +40,8 @@ pub(crate) enum Purpose {
     Opacity,
     /// Whether the path goes on.
     Roulette,
+    /// Which caster throws light, and how.
+    Caster,
 }
 
 /// The random numbers of one sample of a pixel.

@@ -156,6 +156,11 @@ impl<'a> Shading<'a> {
         }
     }
 
+    /// Which part of the primitive was hit.
+    pub(crate) fn part(&self) -> u32 {
+        self.hit.crossing.part
+    }
+
     /// The surface's unit normal on the side that the ray came from.
     pub(crate) fn face(&self) -> DVec3 {
         self.face

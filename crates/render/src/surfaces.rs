@@ -173,6 +173,23 @@ impl Scattering {
         }
     }
 
+    /// Of smooth glass its index of refraction, `None` of what is a mirror; of all else, that scatters light otherwise or from
+    /// place to place, nothing.
+    pub(crate) fn smooth_ior(&self) -> Option<Option<f64>> {
+        match self {
+            Scattering::Glass(Glass { ior, roughness, is_thin: false }) if is_zero(*roughness) => Some(Some(*ior)),
+            Scattering::Metal { roughness, .. } if is_zero(*roughness) => Some(None),
+            Scattering::Mirror => Some(None),
+            Scattering::Glass(_)
+            | Scattering::Metal { .. }
+            | Scattering::Matte
+            | Scattering::RoughMatte { .. }
+            | Scattering::Plastic { .. }
+            | Scattering::Principled(_)
+            | Scattering::Classic(_) => None,
+        }
+    }
+
     /// True if it has no opaque part that would be seen even where what it is filled with makes no difference.
     pub(crate) fn is_only_a_boundary(&self) -> bool {
         match self {

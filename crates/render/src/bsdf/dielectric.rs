@@ -150,6 +150,17 @@ impl Dielectric {
         Scattered { direction, weight: self.tint * scale, how: How::Only, scale }
     }
 
+    /// The one direction to a side, if it is smooth; the chance of it is in the weight.
+    pub(crate) fn only(&self, out: DVec3, passes: bool) -> Option<Scattered> {
+        let reflectance = self.reflectance(out.z);
+        let (lobe, chance) = if passes { (1.0, 1.0 - reflectance) } else { (-1.0, reflectance) };
+        if self.rough.is_some() || chance <= 0.0 {
+            return None;
+        }
+        let scattered = self.sample_smooth(out, lobe);
+        Some(Scattered { weight: scattered.weight * chance as f32, ..scattered })
+    }
+
     /// What goes on of white light, about, to either side.
     pub(crate) fn albedo(&self, out: DVec3) -> Rgb {
         let reflected = self.reflectance(out.z) as f32;

@@ -59,7 +59,7 @@ impl Sky {
             Kind::Gradient { .. } => by_cosine(receiver, DVec2::new(2.0 * at.x - 1.0, at.y)),
             Kind::Map(map) => {
                 let Background::Image(environment) = background else { return None };
-                let (place, direction, pdf) = map.sample(environment, at)?;
+                let (place, direction, pdf) = map.sample(environment, receiver, at)?;
                 return Some((Look { direction, place }, pdf));
             }
         };
@@ -78,7 +78,7 @@ impl Sky {
                 0.5 * (by_height + pdf_by_cosine(receiver, direction))
             }
             Kind::Map(map) => match background {
-                Background::Image(environment) => map.pdf(environment, place, direction),
+                Background::Image(environment) => map.pdf(environment, receiver, place, direction),
                 Background::Color(_) | Background::Gradient { .. } => 0.0,
             },
         }

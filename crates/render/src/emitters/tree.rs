@@ -53,7 +53,7 @@ const NONE: u32 = u32::MAX;
 
 /// Some of the emitters.
 #[derive(Clone, Copy, Debug)]
-struct Node {
+pub(crate) struct Node {
     min: [f32; 3],
     max: [f32; 3],
     intensity: f32,
@@ -73,19 +73,28 @@ struct Node {
 const UNIT: f64 = 32_767.0;
 
 impl Node {
-    fn cone(&self) -> Cone {
+    pub(crate) fn cone(&self) -> Cone {
         let axis = DVec3::from(self.axis.map(f64::from)).normalize_or_zero();
         let [cosine, spread] = [self.cosine, self.spread].map(|cosine| f64::from(cosine) / UNIT);
         Cone { axis, cosine, spread, faces: self.faces }
     }
 
+    /// The way from a point to its middle, and the square of the radius of a ball around it.
+    #[inline]
+    pub(crate) fn way_from(&self, point: DVec3) -> (DVec3, f64) {
+        let (min, max) = (DVec3::from(self.min.map(f64::from)), DVec3::from(self.max.map(f64::from)));
+        ((min + max) * 0.5 - point, 0.25 * (max - min).length_squared())
+    }
+
+    pub(crate) fn intensity(&self) -> f64 {
+        f64::from(self.intensity)
+    }
+
     /// About the irradiance, over whatever is in the way, that its emitters give to a receiver: never 0 where they give any.
     fn importance(&self, receiver: &Receiver) -> f64 {
-        let (min, max) = (DVec3::from(self.min.map(f64::from)), DVec3::from(self.max.map(f64::from)));
-        let way = (min + max) * 0.5 - receiver.point;
+        let (way, radius2) = self.way_from(receiver.point);
         let squared = way.length_squared();
-        let radius2 = 0.25 * (max - min).length_squared();
-        let near = f64::from(self.intensity) / squared.max(radius2).max(1e-60);
+        let near = self.intensity() / squared.max(radius2).max(1e-60);
         if squared <= radius2 {
             return near;
         }
@@ -131,17 +140,34 @@ impl LightTree {
 
     /// About the irradiance of all.
     pub(crate) fn importance(&self, receiver: &Receiver) -> f64 {
-        self.nodes.first().map_or(0.0, |root| root.importance(receiver))
+        self.most(|node| node.importance(receiver))
     }
 
     /// Chooses an emitter by a number from 0 to 1: gives which, and with what probability. `None` if none gives light to the
     /// receiver.
     pub(crate) fn sample(&self, receiver: &Receiver, choice: f64) -> Option<(u32, f64)> {
+        self.choose(|node| node.importance(receiver), choice)
+    }
+
+    /// The probability with which [`LightTree::sample`] chooses an emitter.
+    pub(crate) fn probability(&self, receiver: &Receiver, id: u32) -> f64 {
+        self.chance(|node| node.importance(receiver), id)
+    }
+
+    /// What is said of all.
+    pub(crate) fn most(&self, importance: impl Fn(&Node) -> f64) -> f64 {
+        self.nodes.first().map_or(0.0, importance)
+    }
+
+    /// Chooses one by a number from 0 to 1, going down by what is said of nodes: gives which, and with what probability. `None`
+    /// if nothing is said for any.
+    #[inline]
+    pub(crate) fn choose(&self, importance: impl Fn(&Node) -> f64, choice: f64) -> Option<(u32, f64)> {
         let (mut at, mut probability, mut choice) = (0, 1.0, choice);
         let mut node = self.nodes.first()?;
         while !node.is_leaf {
             let second = node.link as usize;
-            let first_part = self.first_part(at + 1, second, receiver)?;
+            let first_part = self.first_part(at + 1, second, &importance)?;
             if choice < first_part {
                 (at, probability, choice) = (at + 1, probability * first_part, choice / first_part);
             } else {
@@ -154,15 +180,16 @@ impl LightTree {
         Some((node.link, probability))
     }
 
-    /// The probability with which [`LightTree::sample`] chooses an emitter.
-    pub(crate) fn probability(&self, receiver: &Receiver, id: u32) -> f64 {
+    /// The probability with which [`LightTree::choose`] chooses one.
+    #[inline]
+    pub(crate) fn chance(&self, importance: impl Fn(&Node) -> f64, id: u32) -> f64 {
         let Some(&leaf) = self.leaves.get(id as usize).filter(|&&leaf| leaf != NONE) else { return 0.0 };
         let mut at = leaf as usize;
         let mut probability = 1.0;
         while at != 0 {
             let parent = self.nodes[at].parent as usize;
             let second = self.nodes[parent].link as usize;
-            let Some(first_part) = self.first_part(parent + 1, second, receiver) else { return 0.0 };
+            let Some(first_part) = self.first_part(parent + 1, second, &importance) else { return 0.0 };
             probability *= if at == second { 1.0 - first_part } else { first_part };
             at = parent;
         }
@@ -170,8 +197,9 @@ impl LightTree {
     }
 
     /// The chance of the first of two nodes; `None` if neither gives light.
-    fn first_part(&self, first: usize, second: usize, receiver: &Receiver) -> Option<f64> {
-        let [first, second] = [first, second].map(|node| self.nodes[node].importance(receiver));
+    #[inline]
+    fn first_part(&self, first: usize, second: usize, importance: &impl Fn(&Node) -> f64) -> Option<f64> {
+        let [first, second] = [first, second].map(|node| importance(&self.nodes[node]));
         let both = first + second;
         (both > 0.0).then(|| first / both)
     }

@@ -12,9 +12,11 @@
 mod reuse;
 
 use super::{Integrator, Together, one_by_one};
+use crate::background::Look;
 use crate::bsdf::{Bsdf, How};
+use crate::casters::Passage;
 use crate::compile::CompiledScene;
-use crate::emitters::Receiver;
+use crate::emitters::{LightSample, Receiver};
 use crate::frame::Frame;
 use crate::holes::{Known, meet};
 use crate::media::Media;
@@ -23,7 +25,7 @@ use crate::sampler::{Purpose, Sampler};
 use crate::shading::Shading;
 use crate::surfaces::Indices;
 use crate::visibility::{MOST_SURFACES, visibility};
-use durer_geometry::Ray;
+use durer_geometry::{Hit, Ray};
 use durer_math::{DVec3, Rgb};
 use durer_scene::PathSettings;
 
@@ -163,6 +165,10 @@ struct State {
     scale: f32,
     /// How it was found, if light could have been aimed at instead.
     aimed: Option<Aimed>,
+    /// How it came to its last segment by way of a caster, if light could have been aimed at through that.
+    cast: Option<Cast>,
+    /// True if a surface has spread it: from the first that does, light is aimed at through casters.
+    is_spread: bool,
     /// How far it has come through fog since it was last bent or scattered.
     way: f64,
 }
@@ -173,6 +179,51 @@ struct Aimed {
     receiver: Receiver,
     /// Density of the direction, by the surface; of several, the sum.
     pdf: f64,
+}
+
+/// A way from a surface that spreads light by a caster, as far as it fits.
+#[derive(Clone, Copy)]
+struct Cast {
+    start: Aimed,
+    /// Where it started to.
+    toward: DVec3,
+    /// Surfaces met before that, its own among them.
+    met: u32,
+    /// By which it goes, and how: not known before it is there.
+    caster: Option<(u32, Passage)>,
+    /// True if it was found by aiming at light through the caster, not by the surface.
+    is_planned: bool,
+}
+
+impl Cast {
+    /// Where it goes from a surface of a caster; `None` if it does not fit there.
+    fn met(self, scene: &CompiledScene, shading: &Shading<'_>, met: u32, passes: bool) -> Option<Cast> {
+        if self.is_planned {
+            return Some(self);
+        }
+        // Not the caps of cylinders.
+        if shading.part() != 0 {
+            return None;
+        }
+        match (self.caster, met - self.met) {
+            (None, 0) => {
+                let passage = if passes { Passage::Through } else { Passage::Back };
+                Some(Cast { caster: Some((scene.casters.find(shading.primitive)?, passage)), ..self })
+            }
+            (Some((caster, Passage::Through)), 1) => {
+                let is_same = passes && scene.casters.get(caster).primitive == shading.primitive;
+                is_same.then_some(self)
+            }
+            _ => None,
+        }
+    }
+
+    /// By which caster it comes out of the scene, and how, if it has met so many surfaces.
+    fn arrives(&self, met: u32) -> Option<(u32, Passage)> {
+        let (_, passage) = self.caster?;
+        let surfaces = if passage == Passage::Through { 2 } else { 1 };
+        self.caster.filter(|_| met - self.met == surfaces)
+    }
 }
 
 impl<'a, O: Observer> Path<'a, O> {
@@ -192,6 +243,8 @@ impl<'a, O: Observer> Path<'a, O> {
             weight: Rgb::WHITE,
             scale: 1.0,
             aimed: None,
+            cast: None,
+            is_spread: false,
             way: 0.0,
         };
         Path {
@@ -261,12 +314,14 @@ impl<'a, O: Observer> Path<'a, O> {
             let look = scene.background.look(met.ray.direction);
             let seen = scene.background.light(&look);
             if !seen.is_black() {
-                let density = |receiver: &Receiver| scene.emitters.pdf_of_background(scene, receiver, &look);
-                let part = self.part_of_found(density);
+                let part = self.part_of_sky(&look);
                 self.add(Source::Background, seen * part);
             }
             return false;
         };
+        if self.is_planned() && !self.is_as_planned(&hit) {
+            return false;
+        }
         let shading = Shading::at(scene, &met.ray, &hit);
         let Shading { surface, color, opacity, from_outside, .. } = shading;
         let (length, normal) = (met.length, shading.normal());
@@ -290,7 +345,7 @@ impl<'a, O: Observer> Path<'a, O> {
         }
         let emission = shading.emission;
         // What another medium hides is not there and does not glow.
-        if !emission.is_black() && (!shading.bounds_medium || self.indices(&shading).is_some()) {
+        if !emission.is_black() && !self.is_planned() && (!shading.bounds_medium || self.indices(&shading).is_some()) {
             let density =
                 |receiver: &Receiver| scene.emitters.pdf_of_hit(scene, receiver, &met.ray, &hit, &surface, met.length);
             let part = self.part_of_found(density);
@@ -340,9 +395,14 @@ impl<'a, O: Observer> Path<'a, O> {
     fn turn(&mut self, vertex: &Vertex<'_, '_>, ways: u32) -> bool {
         let Vertex { shading, frame, out, bsdf, indices, receiver } = vertex;
         let step = self.step();
-        let lobe = if bsdf.has_one_lobe() { 0.0 } else { self.sampler.one(step, Purpose::Lobe) };
-        let at = self.sampler.two(step, Purpose::Direction);
-        let Some(scattered) = bsdf.sample(*out, lobe, at) else { return false };
+        let scattered = match self.planned_passage() {
+            Some(passage) => bsdf.only(*out, passage == Passage::Through),
+            None => {
+                let lobe = if bsdf.has_one_lobe() { 0.0 } else { self.sampler.one(step, Purpose::Lobe) };
+                bsdf.sample(*out, lobe, self.sampler.two(step, Purpose::Direction))
+            }
+        };
+        let Some(scattered) = scattered else { return false };
         let passes = scattered.direction.z < 0.0;
         let direction = frame.to_world(scattered.direction).normalize();
         let mut weight = scattered.weight;
@@ -366,9 +426,16 @@ impl<'a, O: Observer> Path<'a, O> {
                 if shading.is_on_far_side(direction) != passes {
                     return false;
                 }
-                self.state.aimed = Some(Aimed { receiver: **receiver, pdf: pdf * f64::from(ways) });
+                let aimed = Aimed { receiver: **receiver, pdf: pdf * f64::from(ways) };
+                let casts = !passes && self.may_aim_by_casters();
+                (self.state.aimed, self.state.is_spread) = (Some(aimed), true);
+                self.state.cast = casts.then(|| self.begin_cast(aimed, direction, false));
             }
-            How::Only => self.state.aimed = None,
+            How::Only => {
+                self.state.aimed = None;
+                self.state.cast =
+                    self.state.cast.and_then(|cast| cast.met(self.scene, shading, self.state.met, passes));
+            }
         }
         self.state.depth += 1;
         // Where nothing is bent, it is as if there were no surface.
@@ -419,21 +486,90 @@ impl<'a, O: Observer> Path<'a, O> {
         (!is_none).then_some(Indices { before, behind: Some(behind) })
     }
 
-    /// Light from an emitter that is aimed at, where so many ways go on.
+    /// Light from an emitter that is aimed at, past what is round and through it, where so many ways go on.
     fn aim(&mut self, vertex: &Vertex<'_, '_>, ways: u32) {
-        if let Some(Arriving { source, scattered, light, .. }) = self.arriving(vertex, ways) {
+        let Some(light) = self.choose_light(vertex) else { return };
+        if let Some(Arriving { source, scattered, light, .. }) = self.arriving(vertex, &light, ways) {
             self.add(source, scattered * light);
+        }
+        if !light.is_point && light.distance.is_infinite() && self.may_aim_by_casters() {
+            self.aim_by_caster(vertex, (light.direction, light.pdf), ways);
         }
     }
 
-    /// Looks for light by aiming at an emitter, where so many ways go on.
-    #[inline]
-    fn arriving(&mut self, vertex: &Vertex<'_, '_>, ways: u32) -> Option<Arriving> {
+    /// Chooses light to aim at.
+    fn choose_light(&self, vertex: &Vertex<'_, '_>) -> Option<LightSample> {
+        let (emitters, step) = (&self.scene.emitters, self.step());
+        let choice = if emitters.is_one() { 0.0 } else { self.sampler.one(step, Purpose::Light) };
+        emitters.sample(self.scene, vertex.receiver, choice, self.sampler.two(step, Purpose::LightPoint))
+    }
+
+    /// True if light is aimed at through casters from the surface that the last segment meets.
+    fn may_aim_by_casters(&self) -> bool {
+        !self.scene.casters.is_empty() && !self.state.is_spread && self.media.is_empty()
+    }
+
+    /// A way by a caster that begins where the last segment ends.
+    fn begin_cast(&self, start: Aimed, toward: DVec3, is_planned: bool) -> Cast {
+        Cast { start, toward, met: self.state.met + 1, caster: None, is_planned }
+    }
+
+    /// Adds what arrives by way of a caster of light of the sky in a direction that is found with this density, where so many ways
+    /// go on.
+    #[inline(never)]
+    fn aim_by_caster(&mut self, vertex: &Vertex<'_, '_>, light: (DVec3, f64), ways: u32) {
         let Vertex { shading, frame, out, bsdf, receiver, .. } = vertex;
-        let (scene, step) = (self.scene, self.step());
-        let choice = if scene.emitters.is_one() { 0.0 } else { self.sampler.one(step, Purpose::Light) };
-        let at = self.sampler.two(step, Purpose::LightPoint);
-        let light = scene.emitters.sample(scene, receiver, choice, at)?;
+        let casters = &self.scene.casters;
+        let choice = self.sampler.two(self.step(), Purpose::Caster);
+        let Some((caster, passage)) = casters.choose(receiver, light, choice) else { return };
+        let (state, pause) = (self.state, std::mem::replace(&mut self.pause, Pause::Nowhere));
+        for toward in casters.get(caster).rays(receiver.point, light.0, passage) {
+            let (scattered, pdf) = bsdf.evaluate(*out, frame.to_local(toward));
+            let scattered = scattered * shading.kept(toward) as f32;
+            if scattered.is_black() || frame.to_local(toward).z <= 0.0 || shading.is_on_far_side(toward) {
+                continue;
+            }
+            let start = Aimed { receiver: **receiver, pdf: pdf * f64::from(ways) };
+            let cast = Cast { caster: Some((caster, passage)), ..self.begin_cast(start, toward, true) };
+            self.state = State {
+                weight: state.weight * scattered,
+                depth: state.depth + 1,
+                met: state.met + 1,
+                aimed: None,
+                cast: Some(cast),
+                ..state
+            };
+            self.go_on(RayKind::Reflected, shading.ray_back(toward));
+            self.follow_to_the_end();
+            (self.state, self.media) = (state, Media::default());
+        }
+        self.pause = pause;
+    }
+
+    fn is_planned(&self) -> bool {
+        self.state.cast.is_some_and(|cast| cast.is_planned)
+    }
+
+    /// What is to happen where the last segment meets a caster, if that is planned.
+    fn planned_passage(&self) -> Option<Passage> {
+        let cast = self.state.cast.filter(|cast| cast.is_planned)?;
+        cast.caster.map(|(_, passage)| passage)
+    }
+
+    /// True if a planned way meets its caster where it should, and not something else.
+    fn is_as_planned(&self, hit: &Hit) -> bool {
+        let plan = self.state.cast.and_then(|cast| cast.caster.map(|caster| (caster, self.state.met - cast.met)));
+        plan.is_some_and(|((caster, passage), met)| {
+            let surfaces = if passage == Passage::Through { 2 } else { 1 };
+            hit.primitive == self.scene.casters.get(caster).primitive && hit.crossing.part == 0 && met < surfaces
+        })
+    }
+
+    /// What arrives of light that is aimed at, where so many ways go on.
+    #[inline]
+    fn arriving(&mut self, vertex: &Vertex<'_, '_>, light: &LightSample, ways: u32) -> Option<Arriving> {
+        let Vertex { shading, frame, out, bsdf, receiver, .. } = vertex;
+        let scene = self.scene;
         let toward = frame.to_local(light.direction);
         let (mut scattered, pdf) = bsdf.evaluate(*out, toward);
         let mut visible = Rgb::BLACK;
@@ -475,6 +611,33 @@ impl<'a, O: Observer> Path<'a, O> {
         Some(Arriving { source: Source::Light(light.lamp), toward, scattered, light: arriving })
     }
 
+    /// What light of the sky counts that the last segment has found.
+    fn part_of_sky(&mut self, look: &Look) -> f32 {
+        let scene = self.scene;
+        let arrives = self.state.cast.and_then(|cast| Some((cast, cast.arrives(self.state.met)?)));
+        let Some((Cast { start: Aimed { receiver, pdf }, toward, is_planned, .. }, caster)) = arrives else {
+            return match self.is_planned() {
+                true => 0.0,
+                false => self.part_of_found(|receiver| scene.emitters.pdf_of_background(scene, receiver, look)),
+            };
+        };
+        let of_light = scene.emitters.pdf_of_background(scene, &receiver, look);
+        let by_aiming = scene.casters.density(&receiver, toward, caster, (look.direction, of_light));
+        let (part, counts) = match is_planned {
+            true if by_aiming > 0.0 => {
+                let part = power_heuristic(by_aiming, pdf);
+                (part, part / by_aiming)
+            }
+            true => return 0.0,
+            false => {
+                let part = power_heuristic(pdf, by_aiming);
+                (part, part)
+            }
+        };
+        self.observer.weighing(&Weighing { by_surface: pdf, by_aiming, part });
+        counts as f32
+    }
+
     /// What light counts that the last segment has found, if by aiming it is found with this density from a receiver.
     fn part_of_found(&mut self, density: impl FnOnce(&Receiver) -> f64) -> f32 {
         let Some(Aimed { receiver, pdf }) = self.state.aimed else { return 1.0 };
@@ -505,8 +668,8 @@ impl<'a, O: Observer> Path<'a, O> {
 
     /// The chance of a path of this weight to go on.
     fn survival(&self) -> f32 {
-        if let Pause::AfterSurfaces(_) = self.pause {
-            // What others may use is as dense as it is said to be.
+        if matches!(self.pause, Pause::AfterSurfaces(_)) || self.is_planned() {
+            // What others may use is as dense as it is said to be, and who has a plan does not give up.
             return 1.0;
         }
         let weight = self.state.weight.max_component() / (self.state.scale * self.share);

@@ -139,13 +139,14 @@ fn large_maps_share_cells() {
     let sky = Sky::new(&background).unwrap();
     let Kind::Map(map) = &sky.kind else { panic!("{sky:?}") };
     let Background::Image(environment) = &background else { panic!() };
+    let receiver = Receiver { point: DVec3::ZERO, normal: DVec3::Y, passes: true };
     let mut sum = 0.0;
     const DIRECTIONS: u32 = 1 << 16;
     for at in plane_points(DIRECTIONS) {
         let direction = on_sphere(at);
-        sum += map.pdf(environment, environment.place(direction), direction) * 4.0 * PI / f64::from(DIRECTIONS);
-        let (place, direction, pdf) = map.sample(environment, at).unwrap();
-        assert!((map.pdf(environment, place, direction) / pdf - 1.0).abs() < 1e-4);
+        sum += map.pdf(environment, &receiver, environment.place(direction), direction) * 4.0 * PI / f64::from(DIRECTIONS);
+        let (place, direction, pdf) = map.sample(environment, &receiver, at).unwrap();
+        assert!((map.pdf(environment, &receiver, place, direction) / pdf - 1.0).abs() < 1e-4);
     }
     assert!((sum - 1.0).abs() < 2e-3, "{sum}");
 }

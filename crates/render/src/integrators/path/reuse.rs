@@ -201,7 +201,8 @@ impl<'a, O: Observer> Path<'a, O> {
     /// Finds out what light arrives at a surface, by aiming and by going on. What may not be seen by others is added up.
     fn junction(&mut self, member: usize, found: &Vertex<'_, 'a>) -> Junction<'a> {
         let mut lights = ArrayVec::new();
-        if let Some(arriving) = self.arriving(found, 1) {
+        let light = self.choose_light(found);
+        if let Some(arriving) = light.and_then(|light| self.arriving(found, &light, 1)) {
             let kept = found.shading.kept(found.frame.to_world(arriving.toward)) as f32;
             lights.push((arriving.toward, arriving.light * kept));
         }
