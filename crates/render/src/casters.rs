@@ -21,9 +21,10 @@ use crate::emitters::Receiver;
 use crate::emitters::tree::{Cone, Faces, Item, LightTree, Node};
 use arrayvec::ArrayVec;
 use durer_geometry::Round;
-use durer_math::{DVec2, DVec3};
+use durer_math::functions::{atan2, cos, sin};
+use durer_math::{DVec2, DVec3, any_orthonormal_pair};
 use durer_scene::Integrator;
-use turn::{Angle, Circle, Turned};
+use turn::{Angle, Circle, Inside, Turned};
 
 /// The casters of a scene.
 #[derive(Clone, Debug, Default)]
@@ -48,9 +49,14 @@ pub(crate) struct Caster {
 pub(crate) enum Passage {
     /// It goes in and out again: of cylinders, through the side.
     Through,
-    /// It is turned back from outside.
+    /// It is turned back from outside: of cylinders, by the side.
     Back,
+    /// It goes in by one end of a cylinder and out by the other, and on its way is turned back by the side a few times or never.
+    Along,
 }
+
+/// Light that is turned back more often in a cylinder is not looked for.
+const MOST_TIMES: u32 = 3;
 
 /// How light is thrown by what is round.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,8 +138,12 @@ impl Casters {
         let brightness = |node: &Node| form.brightness(node, receiver, light);
         let choice_of_caster = choice_of_caster.min(1.0_f64.next_down());
         let (index, _) = self.trees[form as usize].choose(brightness, choice_of_caster)?;
-        let through = self.get(index).chance_of_through(receiver.point, light);
-        Some((index, if choice.y / worth < through { Passage::Through } else { Passage::Back }))
+        let passage = match self.get(index).chance_of_through(receiver.point, light) {
+            None => Passage::Along,
+            Some(through) if choice.y / worth < through => Passage::Through,
+            Some(_) => Passage::Back,
+        };
+        Some((index, passage))
     }
 
     /// The chance that this is chosen, if any is.
@@ -141,8 +151,12 @@ impl Casters {
         let caster = self.get(index);
         let form = caster.form();
         let brightness = |node: &Node| form.brightness(node, receiver, light);
-        let through = caster.chance_of_through(receiver.point, light);
-        let of_passage = if passage == Passage::Through { through } else { 1.0 - through };
+        let of_passage = match (caster.chance_of_through(receiver.point, light), passage) {
+            (None, Passage::Along) => 1.0,
+            (Some(through), Passage::Through) => through,
+            (Some(through), Passage::Back) => 1.0 - through,
+            (None, Passage::Through | Passage::Back) | (Some(_), Passage::Along) => return 0.0,
+        };
         let of_form = self.chances(receiver, light)[form as usize];
         of_form * of_passage * self.trees[form as usize].chance(brightness, index)
     }
@@ -157,16 +171,18 @@ impl Casters {
         }
     }
 
-    /// The density with which a ray from a receiver is found by aiming at light through a caster, per solid angle: if it leaves
-    /// that in a direction that is found with the density `pdf`.
+    /// The density with which a ray from a receiver is found by aiming at light through a caster, per solid angle: if it meets so
+    /// many surfaces of it and leaves it in a direction that is found with the density `pdf`.
     pub(crate) fn density(
         &self,
         receiver: &Receiver,
         toward: DVec3,
         caster: (u32, Passage),
+        surfaces: u32,
         (light, pdf): (DVec3, f64),
     ) -> f64 {
-        let Some(spread) = self.get(caster.0).spread(receiver.point, toward, caster.1) else { return 0.0 };
+        let spread = self.get(caster.0).spread(receiver.point, toward, caster.1, surfaces);
+        let Some(spread) = spread else { return 0.0 };
         let worth = worth(pdf);
         if worth > 0.0 { pdf * worth * spread * self.chance(receiver, light, caster) } else { 0.0 }
     }
@@ -248,37 +264,79 @@ impl Caster {
         Item::new(&bounds, size, cone, id)
     }
 
-    /// How often light is to go through.
-    fn chance_of_through(&self, from: DVec3, light: DVec3) -> f64 {
-        let Some(ior) = self.ior else { return 0.0 };
+    /// How often light is to go through, not back; `None` from where it can only go along.
+    fn chance_of_through(&self, from: DVec3, light: DVec3) -> Option<f64> {
+        let Some(ior) = self.ior else { return Some(0.0) };
+        if let Round::Cylinder { center, axis, radius, .. } = self.round
+            && flat(from - center, axis).length() < radius
+        {
+            return None;
+        }
         let (Round::Ball { center, .. } | Round::Cylinder { center, .. }) = self.round;
         let way = (center - from).normalize_or_zero();
         let [through, back] = shares(ior, way.dot(light));
-        (through / (through + back)).clamp(0.1, 0.9)
+        Some((through / (through + back)).clamp(0.1, 0.9))
     }
 
     /// The directions from a point in which rays start that come by way of it from where the light is.
-    pub(crate) fn rays(&self, from: DVec3, light: DVec3, passage: Passage) -> ArrayVec<DVec3, 3> {
+    pub(crate) fn rays(&self, from: DVec3, light: DVec3, passage: Passage) -> ArrayVec<DVec3, MOST_RAYS> {
+        if passage == Passage::Along {
+            return self.rays_along(from, light).unwrap_or_default();
+        }
         let Some(plane) = self.plane(from, light, passage) else { return ArrayVec::new() };
-        let across = plane.toward(light);
-        let end = Angle { sin: across.length(), cos: plane.along.dot(light) };
-        let scale = 1.0 / (end.sin * end.sin + end.cos * end.cos).sqrt();
-        let end = Angle { sin: end.sin * scale, cos: end.cos * scale };
+        let across = plane.across(light);
+        let end = Angle { sin: across.length() / plane.flatness, cos: plane.along.dot(light) / plane.flatness };
         let Some(across) = across.try_normalize() else { return ArrayVec::new() };
         let rays = plane.circle.rays(end).into_iter();
         let rays = rays.filter(|(_, turned)| self.is_within(&plane, turned, passage));
-        let direction = |(side, turned): (f64, Turned)| {
-            let flat = plane.along * turned.start.cos + across * (side * turned.start.sin);
-            (flat * plane.flatness + plane.axis * plane.rise).normalize()
-        };
-        rays.map(direction).collect()
+        rays.map(|(side, turned)| {
+            plane.direction(across, Angle { sin: side * turned.start.sin, cos: turned.start.cos })
+        })
+        .collect()
     }
 
-    /// The solid angle of directions that rays leave in per solid angle in which they start, around one.
-    fn spread(&self, from: DVec3, toward: DVec3, passage: Passage) -> Option<f64> {
+    /// The same for rays from one end of a cylinder to the other.
+    fn rays_along(&self, from: DVec3, light: DVec3) -> Option<ArrayVec<DVec3, MOST_RAYS>> {
+        let Round::Cylinder { half_length, radius, .. } = self.round else { return None };
+        let ior = self.ior?;
+        let plane = self.plane_inside(from, light)?;
+        let (rise, flatness) = (plane.rise.abs(), plane.flatness);
+        let before = plane.height.abs() - half_length;
+        // From below it goes up.
+        if before < 0.0 || plane.rise * plane.height > 0.0 || rise < 1e-6 {
+            return None;
+        }
+        let across = plane.across(light);
+        let end = atan2(across.length(), plane.along.dot(light));
+        let across = across.try_normalize()?;
+        // How far it goes across the axis before the end where it enters, and up to that where it leaves.
+        let entering = before * flatness / rise;
+        let leaving = entering + 2.0 * half_length * flatness / (ior * ior - flatness * flatness).sqrt();
+        let mut rays = ArrayVec::new();
+        for times in 0..=MOST_TIMES {
+            for start in (Inside { q: plane.circle.q, times }).starts(end) {
+                let start = Angle { sin: sin(start), cos: cos(start) };
+                let half_chord = radius * Angle::of_sine(plane.circle.q * start.sin).cos;
+                let first = radius * plane.circle.q * start.cos + half_chord;
+                let met = if leaving < first { 0.0 } else { 1.0 + ((leaving - first) / (2.0 * half_chord)).floor() };
+                if entering < first && met == f64::from(times) && !rays.is_full() {
+                    rays.push(plane.direction(across, start));
+                }
+            }
+        }
+        Some(rays)
+    }
+
+    /// The solid angle of directions that rays leave in per solid angle in which they start, around one, if it meets so many
+    /// surfaces.
+    fn spread(&self, from: DVec3, toward: DVec3, passage: Passage, surfaces: u32) -> Option<f64> {
+        if passage == Passage::Along {
+            let plane = self.plane_inside(from, toward)?;
+            let inside = Inside { q: plane.circle.q, times: surfaces - 2 };
+            return (inside.times <= MOST_TIMES).then(|| inside.rise(plane.angle(toward)).abs());
+        }
         let plane = self.plane(from, toward, passage)?;
-        let sin = plane.toward(toward).length() / plane.flatness;
-        let met = sin / plane.circle.q;
+        let met = plane.angle(toward).sin / plane.circle.q;
         if met >= 1.0 {
             return None;
         }
@@ -287,9 +345,7 @@ impl Caster {
         match self.round {
             Round::Cylinder { .. } => Some(spread),
             // All around the line to the middle.
-            Round::Ball { .. } if turned.start.sin > 0.0 => {
-                Some(spread * (turned.end.sin / turned.start.sin).abs())
-            }
+            Round::Ball { .. } if turned.start.sin > 0.0 => Some(spread * (turned.end.sin / turned.start.sin).abs()),
             Round::Ball { .. } => Some(spread * spread),
         }
     }
@@ -299,6 +355,7 @@ impl Caster {
         let eta = match passage {
             Passage::Through => Some(self.ior?),
             Passage::Back => None,
+            Passage::Along => return None,
         };
         match self.round {
             Round::Ball { center, radius } => {
@@ -306,23 +363,40 @@ impl Caster {
                 let distance = way.length();
                 let circle = Circle { q: radius / distance, eta };
                 let along = way * (1.0 / distance);
-                (distance > radius).then_some(Plane { axis: DVec3::ZERO, rise: 0.0, flatness: 1.0, height: 0.0, along, circle })
+                let axis = DVec3::ZERO;
+                (distance > radius).then_some(Plane { axis, rise: 0.0, flatness: 1.0, height: 0.0, along, circle })
             }
-            Round::Cylinder { center, axis, radius, .. } => {
-                let way = center - from;
-                let height = -way.dot(axis);
-                let flat = way + axis * height;
-                let distance = flat.length();
-                let rise = direction.dot(axis);
-                let flatness = (1.0 - rise * rise).max(0.0).sqrt();
+            Round::Cylinder { radius, .. } => {
+                let (distance, plane) = self.plane_across(from, direction)?;
+                let Plane { rise, flatness, .. } = plane;
                 if distance <= radius || flatness < 1e-6 {
                     return None;
                 }
                 let eta = eta.map(|eta| (eta * eta - rise * rise).max(0.0).sqrt() / flatness);
-                let circle = Circle { q: radius / distance, eta };
-                Some(Plane { axis, rise, flatness, height, along: flat * (1.0 / distance), circle })
+                Some(Plane { circle: Circle { q: radius / distance, eta }, ..plane })
             }
         }
+    }
+
+    /// The plane across a cylinder, for rays that start at a point that is not outside of its side.
+    fn plane_inside(&self, from: DVec3, direction: DVec3) -> Option<Plane> {
+        let Round::Cylinder { radius, .. } = self.round else { return None };
+        let (distance, plane) = self.plane_across(from, direction)?;
+        let circle = Circle { q: distance / radius, eta: None };
+        (distance < radius && plane.flatness >= 1e-6).then_some(Plane { circle, ..plane })
+    }
+
+    /// The plane across a cylinder, and how far its axis is from a point.
+    fn plane_across(&self, from: DVec3, direction: DVec3) -> Option<(f64, Plane)> {
+        let Round::Cylinder { center, axis, .. } = self.round else { return None };
+        let height = (from - center).dot(axis);
+        let way = flat(center - from, axis);
+        let distance = way.length();
+        // On the axis all ways are alike.
+        let along = if distance > 0.0 { way * (1.0 / distance) } else { any_orthonormal_pair(axis).0 };
+        let rise = direction.dot(axis);
+        let flatness = (1.0 - rise * rise).max(0.0).sqrt();
+        Some((distance, Plane { axis, rise, flatness, height, along, circle: Circle { q: 0.0, eta: None } }))
     }
 
     /// True if a ray comes and goes between the ends.
@@ -359,11 +433,30 @@ struct Plane {
 
 impl Plane {
     /// What of a direction is neither along the axis nor toward the middle.
-    fn toward(&self, direction: DVec3) -> DVec3 {
-        let flat = direction - self.axis * direction.dot(self.axis);
+    fn across(&self, direction: DVec3) -> DVec3 {
+        let flat = flat(direction, self.axis);
         flat - self.along * flat.dot(self.along)
     }
+
+    /// Between a direction and that to the middle, in the plane.
+    fn angle(&self, direction: DVec3) -> Angle {
+        let scale = 1.0 / self.flatness;
+        Angle { sin: self.across(direction).length() * scale, cos: self.along.dot(direction) * scale }
+    }
+
+    /// The direction with this angle to the side of `across`.
+    fn direction(&self, across: DVec3, angle: Angle) -> DVec3 {
+        ((self.along * angle.cos + across * angle.sin) * self.flatness + self.axis * self.rise).normalize()
+    }
 }
+
+/// What of a vector is across an axis.
+fn flat(v: DVec3, axis: DVec3) -> DVec3 {
+    v - axis * v.dot(axis)
+}
+
+/// The most rays by one caster.
+const MOST_RAYS: usize = 12;
 
 #[cfg(test)]
 mod tests;

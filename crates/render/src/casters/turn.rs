@@ -14,6 +14,8 @@
 //! Angles are pairs of sine and cosine: square roots are faster than the functions of angles, and as exact.
 
 use arrayvec::ArrayVec;
+use durer_math::functions::{acos, asin, cos, sin};
+use std::f64::consts::{PI, TAU};
 
 /// Sine and cosine of an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -189,6 +191,78 @@ impl Circle {
     }
 }
 
+/// The inside of a circle, seen from a point in it at this distance from the middle, in parts of the radius: a ray is turned back
+/// several times, each time by as much, in the sense in which the middle lies.
+///
+/// A ray starts at an angle s to the line to the middle, and meets the circle at the angle ψ to its normal, where sin ψ = q sin s.
+/// After k times it has the angle s + 2 k ψ + k π. That rises with s where cos s is above a number, and falls elsewhere.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Inside {
+    /// Less than 1.
+    pub(super) q: f64,
+    /// k.
+    pub(super) times: u32,
+}
+
+impl Inside {
+    /// The angle with which a ray ends, from that with which it starts.
+    fn end(&self, start: f64) -> f64 {
+        let times = f64::from(self.times);
+        start + 2.0 * times * asin(self.q * sin(start)) + times * PI
+    }
+
+    /// The derivative of that.
+    pub(super) fn rise(&self, start: Angle) -> f64 {
+        let met = Angle::of_sine(self.q * start.sin);
+        1.0 + 2.0 * f64::from(self.times) * self.q * start.cos / met.cos
+    }
+
+    /// All angles, from -π to π, of rays that end with this one.
+    pub(super) fn starts(&self, end: f64) -> ArrayVec<f64, MOST_STARTS> {
+        let mut starts = ArrayVec::new();
+        let four = 4.0 * f64::from(self.times) * f64::from(self.times);
+        let turning = ((1.0 - self.q * self.q) / (self.q * self.q * (four - 1.0))).sqrt();
+        let turning = if self.times > 0 && turning < 1.0 { acos(-turning) } else { PI };
+        let mut look = |from: f64, to: f64| {
+            let (first, last) = (self.end(from), self.end(to));
+            let (low, high) = (first.min(last), first.max(last));
+            let mut wanted = end + TAU * ((low - end) / TAU).ceil();
+            while wanted < high && !starts.is_full() {
+                starts.push(self.root(wanted, from, to));
+                wanted += TAU;
+            }
+        };
+        look(-turning, turning);
+        if turning < PI {
+            look(turning, TAU - turning);
+        }
+        starts
+    }
+
+    /// The start between two, where the end rises or falls all the way, of a ray that ends so.
+    fn root(&self, wanted: f64, from: f64, to: f64) -> f64 {
+        let rises = self.end(from) < self.end(to);
+        let (mut low, mut high) = (from, to);
+        let mut start = 0.5 * (low + high);
+        for _ in 0..MOST_STEPS {
+            let off = wanted - self.end(start);
+            *if (off > 0.0) == rises { &mut low } else { &mut high } = start;
+            let (sin, cos) = (sin(start), cos(start));
+            let step = off / self.rise(Angle { sin, cos });
+            let next = start + step;
+            start = match next > low && next < high {
+                true if step.abs() < SMALL => return next,
+                true => next,
+                false => 0.5 * (low + high),
+            };
+        }
+        start
+    }
+}
+
+/// With three times at most, there are no more.
+pub(super) const MOST_STARTS: usize = 10;
+
 /// The sine of the angle from one to another; infinite if that is more than a right angle.
 fn sine_between(from: Angle, to: Angle) -> f64 {
     let between = to.minus(from);
@@ -203,8 +277,7 @@ fn is_between(angle: Angle, low: Angle, high: Angle) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use durer_math::functions::{asin, atan2, cos, sin};
-    use std::f64::consts::PI;
+    use durer_math::functions::atan2;
 
     fn angle(of: f64) -> Angle {
         Angle { sin: sin(of), cos: cos(of) }
@@ -265,6 +338,50 @@ mod tests {
                 let spread = circle.turn(angle(met)).spread(circle.q);
                 assert!((spread - slope.abs()).abs() < 1e-6 * (1.0 + spread), "{circle:?} {met}: {spread} {slope}");
             }
+        }
+    }
+
+    #[test]
+    fn every_ray_inside_is_found_by_where_it_goes() {
+        for (q, times) in [(0.0, 1), (0.2, 0), (0.3, 1), (0.7, 1), (0.99, 1), (0.3, 2), (0.9, 2), (0.05, 3), (0.95, 3)] {
+            let inside = Inside { q, times };
+            for step in 1..200 {
+                let wanted = PI * f64::from(step) / 200.0;
+                let found = inside.starts(wanted);
+                let off = |step: u32| {
+                    let off = inside.end(PI * (f64::from(step) / 10_000.0 - 1.0)) - wanted;
+                    (off / TAU, (off / TAU).floor())
+                };
+                // Whole turns that it passes; none is a jump.
+                let passed = (0..20_000).filter(|&step| off(step).1 != off(step + 1).1).count();
+                assert_eq!(found.len(), passed, "{inside:?} {wanted}: {found:?}");
+                for start in found {
+                    let turns = (inside.end(start) - wanted) / TAU;
+                    assert!((turns - turns.round()).abs() < 1e-12, "{inside:?} {wanted} {start}");
+                    let h = 1e-6;
+                    let slope = (inside.end(start + h) - inside.end(start - h)) / (2.0 * h);
+                    let rise = inside.rise(Angle { sin: sin(start), cos: cos(start) });
+                    assert!((rise - slope).abs() < 1e-5 * (1.0 + slope.abs()), "{inside:?} {start}: {rise} {slope}");
+                }
+            }
+        }
+    }
+
+    /// The formula against a ray that is followed.
+    #[test]
+    fn rays_inside_go_where_they_are_followed_to() {
+        for (q, start, times) in [(0.3, 0.7, 1), (0.8, -1.2, 2), (0.5, 2.8, 3), (0.9, -2.0, 1)] {
+            // The point is at -q on the x axis, and the middle is seen along that.
+            let (mut x, mut y, mut dx, mut dy) = (-q, 0.0, cos(start), sin(start));
+            for _ in 0..times {
+                let along = x * dx + y * dy;
+                let t = (along * along + 1.0 - x * x - y * y).sqrt() - along;
+                (x, y) = (x + t * dx, y + t * dy);
+                let on = dx * x + dy * y;
+                (dx, dy) = (dx - 2.0 * on * x, dy - 2.0 * on * y);
+            }
+            let turns = (Inside { q, times }.end(start) - atan2(dy, dx)) / TAU;
+            assert!((turns - turns.round()).abs() < 1e-12, "{q} {start} {times}: {turns}");
         }
     }
 }

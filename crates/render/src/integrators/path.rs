@@ -191,38 +191,62 @@ struct Cast {
     met: u32,
     /// By which it goes, and how: not known before it is there.
     caster: Option<(u32, Passage)>,
+    /// How many surfaces of it were met.
+    surfaces: u32,
+    /// True if the caster is left behind.
+    is_out: bool,
     /// True if it was found by aiming at light through the caster, not by the surface.
     is_planned: bool,
 }
 
 impl Cast {
-    /// Where it goes from a surface of a caster; `None` if it does not fit there.
-    fn met(self, scene: &CompiledScene, shading: &Shading<'_>, met: u32, passes: bool) -> Option<Cast> {
-        if self.is_planned {
-            return Some(self);
-        }
-        // Not the caps of cylinders.
-        if shading.part() != 0 {
-            return None;
-        }
-        match (self.caster, met - self.met) {
-            (None, 0) => {
-                let passage = if passes { Passage::Through } else { Passage::Back };
-                Some(Cast { caster: Some((scene.casters.find(shading.primitive)?, passage)), ..self })
-            }
-            (Some((caster, Passage::Through)), 1) => {
-                let is_same = passes && scene.casters.get(caster).primitive == shading.primitive;
-                is_same.then_some(self)
-            }
-            _ => None,
-        }
+    /// A way that starts from a surface which is met after so many.
+    fn new(start: Aimed, toward: DVec3, met: u32) -> Cast {
+        Cast { start, toward, met: met + 1, caster: None, surfaces: 0, is_out: false, is_planned: false }
     }
 
-    /// By which caster it comes out of the scene, and how, if it has met so many surfaces.
-    fn arrives(&self, met: u32) -> Option<(u32, Passage)> {
-        let (_, passage) = self.caster?;
-        let surfaces = if passage == Passage::Through { 2 } else { 1 };
-        self.caster.filter(|_| met - self.met == surfaces)
+    /// It goes on from a surface that is met after so many; `None` if it does not fit there.
+    fn met(mut self, scene: &CompiledScene, shading: &Shading<'_>, met: u32, passes: bool) -> Option<Cast> {
+        let is_next = self.met + self.surfaces == met && !self.is_out;
+        let found = scene.casters.find(shading.primitive).filter(|_| is_next)?;
+        // Of cylinders, the others are caps.
+        let is_side = shading.part() == 0;
+        let (caster, passage) = match (self.surfaces, is_side, passes) {
+            (0, true, true) => (found, Passage::Through),
+            (0, true, false) => (found, Passage::Back),
+            (0, false, true) => (found, Passage::Along),
+            _ => self.caster?,
+        };
+        let goes_on = match (passage, self.surfaces) {
+            (_, 0) => true,
+            (Passage::Through, _) => is_side && passes,
+            (Passage::Back, _) => false,
+            (Passage::Along, _) => is_side != passes,
+        };
+        self.is_out = passage == Passage::Back || self.surfaces > 0 && passes;
+        self.surfaces += 1;
+        let is_same = found == caster && self.caster.is_none_or(|planned| planned == (caster, passage));
+        self.caster = Some((caster, passage));
+        (goes_on && is_same).then_some(self)
+    }
+
+    /// True if it comes out of the scene, when it has met so many surfaces.
+    fn arrives(&self, met: u32) -> bool {
+        self.is_out && self.met + self.surfaces == met
+    }
+
+    /// True if a planned way is to meet what it has hit.
+    fn fits(&self, scene: &CompiledScene, hit: &Hit) -> bool {
+        self.caster.is_some_and(|(caster, _)| scene.casters.get(caster).primitive == hit.primitive) && !self.is_out
+    }
+
+    /// True if a planned way is to pass a part of its caster.
+    fn passes(&self, part: u32) -> bool {
+        match self.caster {
+            Some((_, Passage::Through)) => true,
+            Some((_, Passage::Along)) => part != 0,
+            Some((_, Passage::Back)) | None => false,
+        }
     }
 }
 
@@ -319,7 +343,7 @@ impl<'a, O: Observer> Path<'a, O> {
             }
             return false;
         };
-        if self.is_planned() && !self.is_as_planned(&hit) {
+        if self.plan().is_some_and(|cast| !cast.fits(scene, &hit)) {
             return false;
         }
         let shading = Shading::at(scene, &met.ray, &hit);
@@ -345,7 +369,7 @@ impl<'a, O: Observer> Path<'a, O> {
         }
         let emission = shading.emission;
         // What another medium hides is not there and does not glow.
-        if !emission.is_black() && !self.is_planned() && (!shading.bounds_medium || self.indices(&shading).is_some()) {
+        if !emission.is_black() && self.plan().is_none() && (!shading.bounds_medium || self.indices(&shading).is_some()) {
             let density =
                 |receiver: &Receiver| scene.emitters.pdf_of_hit(scene, receiver, &met.ray, &hit, &surface, met.length);
             let part = self.part_of_found(density);
@@ -395,8 +419,8 @@ impl<'a, O: Observer> Path<'a, O> {
     fn turn(&mut self, vertex: &Vertex<'_, '_>, ways: u32) -> bool {
         let Vertex { shading, frame, out, bsdf, indices, receiver } = vertex;
         let step = self.step();
-        let scattered = match self.planned_passage() {
-            Some(passage) => bsdf.only(*out, passage == Passage::Through),
+        let scattered = match self.plan() {
+            Some(cast) => bsdf.only(*out, cast.passes(shading.part())),
             None => {
                 let lobe = if bsdf.has_one_lobe() { 0.0 } else { self.sampler.one(step, Purpose::Lobe) };
                 bsdf.sample(*out, lobe, self.sampler.two(step, Purpose::Direction))
@@ -429,7 +453,7 @@ impl<'a, O: Observer> Path<'a, O> {
                 let aimed = Aimed { receiver: **receiver, pdf: pdf * f64::from(ways) };
                 let casts = !passes && self.may_aim_by_casters();
                 (self.state.aimed, self.state.is_spread) = (Some(aimed), true);
-                self.state.cast = casts.then(|| self.begin_cast(aimed, direction, false));
+                self.state.cast = casts.then(|| Cast::new(aimed, direction, self.state.met));
             }
             How::Only => {
                 self.state.aimed = None;
@@ -509,11 +533,6 @@ impl<'a, O: Observer> Path<'a, O> {
         !self.scene.casters.is_empty() && !self.state.is_spread && self.media.is_empty()
     }
 
-    /// A way by a caster that begins where the last segment ends.
-    fn begin_cast(&self, start: Aimed, toward: DVec3, is_planned: bool) -> Cast {
-        Cast { start, toward, met: self.state.met + 1, caster: None, is_planned }
-    }
-
     /// Adds what arrives by way of a caster of light of the sky in a direction that is found with this density, where so many ways
     /// go on.
     #[inline(never)]
@@ -530,7 +549,8 @@ impl<'a, O: Observer> Path<'a, O> {
                 continue;
             }
             let start = Aimed { receiver: **receiver, pdf: pdf * f64::from(ways) };
-            let cast = Cast { caster: Some((caster, passage)), ..self.begin_cast(start, toward, true) };
+            let plan = Cast::new(start, toward, state.met);
+            let cast = Cast { caster: Some((caster, passage)), is_planned: true, ..plan };
             self.state = State {
                 weight: state.weight * scattered,
                 depth: state.depth + 1,
@@ -546,23 +566,9 @@ impl<'a, O: Observer> Path<'a, O> {
         self.pause = pause;
     }
 
-    fn is_planned(&self) -> bool {
-        self.state.cast.is_some_and(|cast| cast.is_planned)
-    }
-
-    /// What is to happen where the last segment meets a caster, if that is planned.
-    fn planned_passage(&self) -> Option<Passage> {
-        let cast = self.state.cast.filter(|cast| cast.is_planned)?;
-        cast.caster.map(|(_, passage)| passage)
-    }
-
-    /// True if a planned way meets its caster where it should, and not something else.
-    fn is_as_planned(&self, hit: &Hit) -> bool {
-        let plan = self.state.cast.and_then(|cast| cast.caster.map(|caster| (caster, self.state.met - cast.met)));
-        plan.is_some_and(|((caster, passage), met)| {
-            let surfaces = if passage == Passage::Through { 2 } else { 1 };
-            hit.primitive == self.scene.casters.get(caster).primitive && hit.crossing.part == 0 && met < surfaces
-        })
+    /// The way by a caster that it was sent on purpose.
+    fn plan(&self) -> Option<&Cast> {
+        self.state.cast.as_ref().filter(|cast| cast.is_planned)
     }
 
     /// What arrives of light that is aimed at, where so many ways go on.
@@ -614,15 +620,17 @@ impl<'a, O: Observer> Path<'a, O> {
     /// What light of the sky counts that the last segment has found.
     fn part_of_sky(&mut self, look: &Look) -> f32 {
         let scene = self.scene;
-        let arrives = self.state.cast.and_then(|cast| Some((cast, cast.arrives(self.state.met)?)));
-        let Some((Cast { start: Aimed { receiver, pdf }, toward, is_planned, .. }, caster)) = arrives else {
-            return match self.is_planned() {
-                true => 0.0,
-                false => self.part_of_found(|receiver| scene.emitters.pdf_of_background(scene, receiver, look)),
+        let arrives = self.state.cast.filter(|cast| cast.arrives(self.state.met));
+        let Some(Cast { start: Aimed { receiver, pdf }, toward, caster: Some(caster), surfaces, is_planned, .. }) =
+            arrives
+        else {
+            return match self.plan() {
+                Some(_) => 0.0,
+                None => self.part_of_found(|receiver| scene.emitters.pdf_of_background(scene, receiver, look)),
             };
         };
         let of_light = scene.emitters.pdf_of_background(scene, &receiver, look);
-        let by_aiming = scene.casters.density(&receiver, toward, caster, (look.direction, of_light));
+        let by_aiming = scene.casters.density(&receiver, toward, caster, surfaces, (look.direction, of_light));
         let (part, counts) = match is_planned {
             true if by_aiming > 0.0 => {
                 let part = power_heuristic(by_aiming, pdf);
@@ -668,7 +676,7 @@ impl<'a, O: Observer> Path<'a, O> {
 
     /// The chance of a path of this weight to go on.
     fn survival(&self) -> f32 {
-        if matches!(self.pause, Pause::AfterSurfaces(_)) || self.is_planned() {
+        if matches!(self.pause, Pause::AfterSurfaces(_)) || self.plan().is_some() {
             // What others may use is as dense as it is said to be, and who has a plan does not give up.
             return 1.0;
         }
