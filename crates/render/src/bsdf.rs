@@ -181,6 +181,17 @@ impl Bsdf {
         (scattered.direction.z.abs() >= EDGE_ON).then_some(scattered)
     }
 
+    /// The same for what the eye sees, itself or in mirrors: smooth glass reflects more often than it should, and what it reflects
+    /// counts the less. For what is mirrored faintly may be much brighter than all that is behind.
+    pub(crate) fn sample_seen(&self, out: DVec3, lobe: f64, at: DVec2) -> Option<Scattered> {
+        match self {
+            Bsdf::Dielectric(dielectric) if dielectric.is_specular() && out.z >= EDGE_ON => {
+                dielectric.sample_seen(out, lobe)
+            }
+            other => other.sample(out, lobe, at),
+        }
+    }
+
     /// The one direction to a side in which a smooth boundary or mirror scatters, with the chance that [`Bsdf::sample`] takes it in
     /// its weight: who goes there goes on purpose. `None` if there is none, or if the surface is another.
     pub(crate) fn only(&self, out: DVec3, passes: bool) -> Option<Scattered> {

@@ -11,6 +11,10 @@ use super::warps::{cosine_hemisphere, cosine_pdf};
 use super::{How, Scattered};
 use durer_math::{DVec2, DVec3, Rgb};
 
+/// Of what the eye sees of smooth glass, as many samples as this look at what it mirrors, at least: in a thousand things under a
+/// sun, most of the noise of glass was its glints. More would make what is behind noisy.
+const SEEN: f64 = 0.1;
+
 /// A boundary between dielectrics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Dielectric {
@@ -148,6 +152,16 @@ impl Dielectric {
         let direction = DVec3::new(-out.x / self.eta, -out.y / self.eta, -boundary.cos_behind).normalize();
         let scale = self.squeeze() as f32;
         Scattered { direction, weight: self.tint * scale, how: How::Only, scale }
+    }
+
+    /// One of the two directions of a smooth one: the mirrored one, if there is one, at least as often as [`SEEN`].
+    pub(crate) fn sample_seen(&self, out: DVec3, lobe: f64) -> Option<Scattered> {
+        let reflectance = self.reflectance(out.z);
+        let chance = if reflectance > 0.0 { reflectance.max(SEEN) } else { 0.0 };
+        let passes = lobe >= chance;
+        let chance = if passes { 1.0 - chance } else { chance };
+        let scattered = self.only(out, passes)?;
+        Some(Scattered { weight: scattered.weight * (1.0 / chance) as f32, ..scattered })
     }
 
     /// The one direction to a side, if it is smooth; the chance of it is in the weight.

@@ -38,6 +38,8 @@ const FIRST_ROULETTE: u32 = 3;
 /// few of many paths find the light. Found by trial, with a box and a thousand things under a sky; to end all in proportion to
 /// their weight took 1.1 and 1.6 times as long to the same error. (Veach 1997, §10.4.1, has the theory.)
 const WORTHWHILE: f32 = 0.3;
+/// From so many surfaces that spread a path light is aimed at through casters, too.
+const MOST_CASTING: u32 = 2;
 /// No path goes on with a greater chance than this that has lost nothing: between perfect mirrors it would not end.
 const MOST_LIKELY: f32 = 0.99;
 
@@ -167,8 +169,8 @@ struct State {
     aimed: Option<Aimed>,
     /// How it came to its last segment by way of a caster, if light could have been aimed at through that.
     cast: Option<Cast>,
-    /// True if a surface has spread it: from the first that does, light is aimed at through casters.
-    is_spread: bool,
+    /// How many surfaces have spread it; from the first ones that do, light is aimed at through casters.
+    spreads: u32,
     /// How far it has come through fog since it was last bent or scattered.
     way: f64,
 }
@@ -268,7 +270,7 @@ impl<'a, O: Observer> Path<'a, O> {
             scale: 1.0,
             aimed: None,
             cast: None,
-            is_spread: false,
+            spreads: 0,
             way: 0.0,
         };
         Path {
@@ -423,7 +425,8 @@ impl<'a, O: Observer> Path<'a, O> {
             Some(cast) => bsdf.only(*out, cast.passes(shading.part())),
             None => {
                 let lobe = if bsdf.has_one_lobe() { 0.0 } else { self.sampler.one(step, Purpose::Lobe) };
-                bsdf.sample(*out, lobe, self.sampler.two(step, Purpose::Direction))
+                let at = self.sampler.two(step, Purpose::Direction);
+                if self.state.spreads == 0 { bsdf.sample_seen(*out, lobe, at) } else { bsdf.sample(*out, lobe, at) }
             }
         };
         let Some(scattered) = scattered else { return false };
@@ -452,8 +455,9 @@ impl<'a, O: Observer> Path<'a, O> {
                 }
                 let aimed = Aimed { receiver: **receiver, pdf: pdf * f64::from(ways) };
                 let casts = !passes && self.may_aim_by_casters();
-                (self.state.aimed, self.state.is_spread) = (Some(aimed), true);
+                self.state.aimed = Some(aimed);
                 self.state.cast = casts.then(|| Cast::new(aimed, direction, self.state.met));
+                self.state.spreads += 1;
             }
             How::Only => {
                 self.state.aimed = None;
@@ -530,7 +534,7 @@ impl<'a, O: Observer> Path<'a, O> {
 
     /// True if light is aimed at through casters from the surface that the last segment meets.
     fn may_aim_by_casters(&self) -> bool {
-        !self.scene.casters.is_empty() && !self.state.is_spread && self.media.is_empty()
+        !self.scene.casters.is_empty() && self.state.spreads < MOST_CASTING && self.media.is_empty()
     }
 
     /// Adds what arrives by way of a caster of light of the sky in a direction that is found with this density, where so many ways

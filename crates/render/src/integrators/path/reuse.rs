@@ -18,7 +18,7 @@
 //! A picture is as true as without, and has far less noise where most light comes by way of other things; for a path costs much
 //! more than a ray that asks whether two points see each other. What is left of the noise is alike in the pixels of a block.
 
-use super::{Path, PathTracer, Pause, Paused, State, Vertex};
+use super::{MOST_CASTING, Path, PathTracer, Pause, Paused, State, Vertex};
 use crate::bsdf::Bsdf;
 use crate::compile::CompiledScene;
 use crate::frame::Frame;
@@ -207,6 +207,8 @@ impl<'a, O: Observer> Path<'a, O> {
             lights.push((arriving.toward, arriving.light * kept));
         }
         let State { depth, weight, .. } = self.state;
+        // What others make of light by way of casters is not known.
+        self.state.spreads = MOST_CASTING;
         self.state.weight = Rgb::WHITE;
         if self.turn(found, 1) {
             self.pause = Pause::Nowhere;
