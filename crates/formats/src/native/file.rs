@@ -1,14 +1,15 @@
 //! A whole scene file: its top-level fields, and names for textures and materials.
 
 use super::decode::{Decoder, Fields};
-use super::record::{FieldAbout, Record, fields, record};
-use super::tree::{Node, NodeKind};
+use super::record::{Choice, FieldAbout, Record, fields, record};
+use super::tree::{Entry, Node, NodeKind, shorten};
 use super::value::Value;
 use super::write::{FieldsOut, Out, Writer};
+use crate::diagnostics::Complaint;
 use durer_math::Rgb;
 use durer_scene::{
-    Background, Camera, Fog, Light, Material, MaterialId, Object, ObjectKind, Picture, RenderSettings, Scene, Texture,
-    TextureId,
+    Background, Camera, Fog, Light, Material, MaterialId, Object, ObjectKind, Pattern, Picture, RenderSettings, Scene,
+    Texture, TextureId,
 };
 use serde_json::{Value as Json, json};
 use std::rc::Rc;
@@ -104,6 +105,40 @@ fn enter_names(root: &Node, cx: &mut Decoder<'_>) {
     }
 }
 
+/// Something that others are called by their names.
+struct Named {
+    noun: &'static str,
+    /// Words that say more than a name: kinds.
+    words: &'static [(&'static str, &'static str)],
+    example: &'static str,
+}
+
+const TEXTURES: Named = Named { noun: "texture", words: Pattern::WORDS, example: "checker: {}" };
+const MATERIALS: Named = Named { noun: "material", words: &[], example: "color: red" };
+
+impl Named {
+    /// The complaint about one of these entries that says nothing but the name of one of them.
+    fn is_but_a_name(&self, (key, value): &Entry, entries: &[Entry]) -> Option<Complaint> {
+        let named = |node: &Node| {
+            let name = node.text().filter(|name| self.words.iter().all(|(word, _)| word != name))?;
+            entries.iter().find(|(key, _)| key.text() == Some(name)).map(|(_, value)| Rc::clone(value))
+        };
+        let mut next = named(value)?;
+        // From name to name: after so many steps as there are names it is a circle.
+        let mut steps = entries.iter();
+        while let (Some(_), Some(behind)) = (steps.next(), named(&next)) {
+            next = behind;
+        }
+        let (noun, example) = (self.noun, self.example);
+        let [name, written] = [key, value].map(|node| shorten(node.text().unwrap_or_default()));
+        let complaint = Complaint::error(value.span, format!("expected a {noun}, found the name of one, `{written}`"));
+        Some(complaint.help(match named(&next) {
+            Some(_) => format!("these names lead in a circle: say what one of them is, as in `{name}: {{{example}}}`"),
+            None => format!("use `{written}` wherever `{name}` is used"),
+        }))
+    }
+}
+
 /// The named textures; they live in the scene, so this only says whether there are any.
 #[derive(Clone, Default, PartialEq)]
 struct Textures(Vec<TextureId>);
@@ -117,7 +152,12 @@ impl Value for Textures {
     }
     fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
         let Some(entries) = entries_of(node) else { return cx.expected::<Self>(node) };
-        for (at, (_, value)) in entries.iter().enumerate() {
+        for (at, entry) in entries.iter().enumerate() {
+            let (_, value) = entry;
+            if let Some(complaint) = TEXTURES.is_but_a_name(entry, entries) {
+                let _: Option<()> = cx.complain(complaint);
+                continue;
+            }
             if let Some(texture) = Texture::decode(value, cx) {
                 let name = cx.scene.textures[at].name.take();
                 cx.scene.textures[at] = Texture { name, ..texture };
@@ -154,7 +194,12 @@ impl Value for Materials {
     }
     fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
         let Some(entries) = entries_of(node) else { return cx.expected::<Self>(node) };
-        for (at, (_, value)) in entries.iter().enumerate() {
+        for (at, entry) in entries.iter().enumerate() {
+            let (_, value) = entry;
+            if let Some(complaint) = MATERIALS.is_but_a_name(entry, entries) {
+                let _: Option<()> = cx.complain(complaint);
+                continue;
+            }
             if let Some(material) = Material::decode(value, cx) {
                 let name = cx.scene.materials[at].name.take();
                 cx.scene.materials[at] = Material { name, ..material };
