@@ -93,8 +93,12 @@ impl Complaint {
         Complaint { setting: Some(name), ..complaint.maybe_help(problem.help) }
     }
 
+    pub(crate) fn as_warning(self) -> Complaint {
+        Complaint { severity: Severity::Warning, ..self }
+    }
+
     pub(crate) fn warning(span: Span, message: impl Into<String>) -> Complaint {
-        Complaint { severity: Severity::Warning, ..Complaint::error(span, message) }
+        Complaint::error(span, message).as_warning()
     }
 
     pub(crate) fn label(self, label: impl Into<String>) -> Complaint {

@@ -80,9 +80,11 @@ fn load_tree(
     overlay.lay_over(&mut scene.picture, &mut scene.render);
     let render = scene.render;
     let mut complaints = std::mem::take(&mut decoder.complaints);
+    let given_elsewhere = settings::places().filter(|place| overlay.name_of(place, &render).is_some());
+    let laid_over: Vec<Span> = given_elsewhere.filter_map(|place| place::whole_span_of(&place, &root)).collect();
     match scene.check() {
         Ok(scene) => {
-            decoder.refuse_those_beyond(&mut complaints);
+            decoder.refuse_those_beyond(&laid_over, &mut complaints);
             let place = Place { steps: ["render", "integrator"].map(Step::Field).into() };
             let chosen_by = overlay.name_of(&place, &render);
             settings::warn_of_unused(&root, &render.integrator, chosen_by.as_deref(), &mut complaints);
@@ -90,7 +92,10 @@ fn load_tree(
             if !complaints.iter().any(Complaint::is_error) {
                 for remark in scene.remarks() {
                     let span = place::span_of(&remark.place, &root, &decoder);
-                    complaints.push(Complaint::warning(span, remark.message).maybe_help(remark.help));
+                    complaints.push(match overlay.name_of(&remark.place, &render) {
+                        Some(name) => Complaint::of_overlay(name, remark).as_warning(),
+                        None => Complaint::warning(span, remark.message).maybe_help(remark.help),
+                    });
                 }
             }
             let usable = !complaints.iter().any(Complaint::is_error);
@@ -110,7 +115,7 @@ fn load_tree(
                 let message = decoder.as_written(problem.message, span);
                 complaints.push(Complaint::error(span, message).maybe_help(problem.help));
             }
-            decoder.refuse_those_beyond(&mut complaints);
+            decoder.refuse_those_beyond(&laid_over, &mut complaints);
             (None, complaints)
         }
     }

@@ -110,9 +110,12 @@ impl<'a> Decoder<'a> {
         }
     }
 
-    /// Complains of those that the check has nothing against.
-    pub(crate) fn refuse_those_beyond(&mut self, complaints: &mut Vec<Complaint>) {
+    /// Complains of those that the check has nothing against, unless they stand where something else is `laid_over`.
+    pub(crate) fn refuse_those_beyond(&mut self, laid_over: &[Span], complaints: &mut Vec<Complaint>) {
         for (span, _) in std::mem::take(&mut self.beyond) {
+            if laid_over.iter().any(|around| around.start <= span.start && span.end <= around.end) {
+                continue;
+            }
             let complaint = Complaint::error(span, "this number is too large");
             complaints.push(complaint.help(format!("whole numbers go up to {}", u32::MAX)));
         }

@@ -71,10 +71,15 @@ impl<'s> Checker<'s> {
     /// A problem right here, and what to do about it; always false.
     pub(super) fn problem_with_help(&mut self, message: impl Into<String>, help: impl Into<String>) -> bool {
         self.problem(message);
+        self.advise(help);
+        false
+    }
+
+    /// What to do about the last problem.
+    pub(super) fn advise(&mut self, help: impl Into<String>) {
         if let Some(last) = self.problems.last_mut() {
             last.help = Some(help.into());
         }
-        false
     }
 
     /// A problem in a field unless `fine`.
