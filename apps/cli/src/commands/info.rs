@@ -196,6 +196,7 @@ impl<'s> Facts<'s> {
                 | Integrator::Depth
                 | Integrator::Uv => render.max_depth,
             },
+            "path": path_json(render.integrator),
             "samples": render.integrator.takes_samples().then(|| json!({
                 "most": render.samples_a_pixel(), "noise": render.noise, "time": render.time, "seed": render.seed,
             })),
@@ -290,21 +291,37 @@ fn integrator_text(render: &RenderSettings) -> String {
     };
     let what = match render.integrator {
         Integrator::Whitted => format!("depth {depth}, antialias {antialias}"),
-        Integrator::Path(PathSettings { max_depth, clamp, split, reuse }) => {
-            let clamp = clamp.map_or(String::new(), |clamp| format!(", clamp {clamp}"));
-            let split = if split > 1 { format!(", split {split}") } else { String::new() };
-            let reuse = if reuse > 1 { format!(", reuse {reuse}") } else { String::new() };
-            format!("path, depth {max_depth}{clamp}{split}{reuse}, {}", samples_text(render))
-        }
-        Integrator::AmbientOcclusion { distance } => {
-            let distance = distance.map_or(String::new(), |distance| format!(", distance {distance}"));
-            format!("ambient_occlusion{distance}, {}", samples_text(render))
+        sampled @ (Integrator::Path(_) | Integrator::AmbientOcclusion { .. }) => {
+            format!("{}, {}", own_settings(sampled), samples_text(render))
         }
         Integrator::Normals | Integrator::Depth | Integrator::Uv => {
             format!("{}, antialias {antialias}", render.integrator.word())
         }
     };
     what + &filter
+}
+
+/// The word for what is computed, and its own settings as far as there is something to say.
+fn own_settings(integrator: Integrator) -> String {
+    match integrator {
+        Integrator::Path(PathSettings { max_depth, clamp, split, reuse }) => {
+            let clamp = clamp.map_or(String::new(), |clamp| format!(", clamp {clamp}"));
+            let split = if split > 1 { format!(", split {split}") } else { String::new() };
+            let reuse = if reuse > 1 { format!(", reuse {reuse}") } else { String::new() };
+            format!("path, depth {max_depth}{clamp}{split}{reuse}")
+        }
+        Integrator::AmbientOcclusion { distance } => {
+            let distance = distance.map_or(String::new(), |distance| format!(", distance {distance}"));
+            format!("ambient_occlusion{distance}")
+        }
+        Integrator::Whitted | Integrator::Normals | Integrator::Depth | Integrator::Uv => integrator.word().to_owned(),
+    }
+}
+
+/// All settings of the path tracer; null of others.
+fn path_json(integrator: Integrator) -> Value {
+    let Integrator::Path(PathSettings { max_depth, clamp, split, reuse }) = integrator else { return Value::Null };
+    json!({ "max_depth": max_depth, "clamp": clamp, "split": split, "reuse": reuse })
 }
 
 /// How many samples a pixel takes, and what else ends them.

@@ -1,5 +1,6 @@
 //! `durer render`: from a scene file to a picture file.
 
+mod differences;
 mod job;
 mod layers;
 mod manner;
@@ -12,12 +13,14 @@ use crate::load::SceneArgs;
 use crate::overrides::Overrides;
 use crate::target::FileOptions;
 use clap::Args;
+use durer::scene::RenderSettings;
 use durer::{Film, Origin, Region, SampleRange, SimdLevel};
 use layers::LayerOptions;
 use saving::Saving;
 use std::path::{Path, PathBuf};
 
-pub(crate) use job::{Job, Purpose, differences_of_samples};
+pub(crate) use differences::differences_of_samples;
+pub(crate) use job::{Job, Purpose};
 pub(crate) use manner::Manner;
 pub(crate) use saver::remove_checkpoint;
 
