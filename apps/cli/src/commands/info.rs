@@ -6,7 +6,7 @@ mod picture;
 use crate::exit::{Exit, Failure};
 use crate::interrupt::Interrupt;
 use crate::load::SceneArgs;
-use crate::numbers::{bytes, count, thousands, vector};
+use crate::numbers::{bytes, count, samples_a_pixel, thousands, vector};
 use crate::output;
 use crate::progress::Show;
 use clap::Args;
@@ -329,7 +329,8 @@ fn samples_text(render: &RenderSettings) -> String {
     let most = if render.noise.is_some() || render.time.is_some() { "at most " } else { "" };
     let noise = render.noise.map_or(String::new(), |noise| format!(", noise {noise}"));
     let time = render.time.map_or(String::new(), |time| format!(", time {time} s"));
-    format!("{most}{} samples a pixel{noise}{time}, seed {}", render.samples_a_pixel(), render.seed)
+    let samples = render.samples_a_pixel();
+    format!("{most}{}{noise}{time}, seed {}", samples_a_pixel(samples, samples), render.seed)
 }
 
 /// The transfer curve, as scenes call it.

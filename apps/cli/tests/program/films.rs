@@ -71,6 +71,12 @@ fn films_that_do_not_fit_are_told() {
     workshop.fails("merge a.film -o c.gif", 2, "gif");
     workshop.fails("resume a.film", 4, "it is a finished film");
     workshop.fails("render ball.yaml --sample-range 3..3", 2, "must be greater");
+    for beyond in ["999999..1000001", "0..5000000000"] {
+        workshop.fails(&format!("render ball.yaml --sample-range {beyond}"), 2, "a pixel has at most 1000000 samples");
+    }
+    let last = workshop.fine("render ball.yaml --sample-range 999999..1000000 -o last.film").stderr;
+    assert!(last.contains(", 1 sample a pixel;"), "{last}");
+    assert!(workshop.fine("info last.film").stdout.contains(", 1 sample a pixel\n"));
     workshop.fails("render ball.yaml -o a.film --quality 3", 2, "--quality");
     workshop.fails("render room.yaml -o a.film", 2, "`whitted` takes no samples");
     workshop.fails("render room.yaml --sample-range 0..4", 2, "`whitted` takes no samples");
