@@ -43,6 +43,7 @@ use crate::diagnostics::Complaint;
 use crate::{Assets, Limits, Overlay};
 use decode::Decoder;
 use durer_scene::{CheckedScene, Picture, Place, RenderSettings, Scene, Step};
+use std::collections::BTreeSet;
 use tree::Span;
 
 /// A scene, and the settings that its file has under those that were laid over them.
@@ -93,7 +94,7 @@ fn load_tree(
                 for remark in scene.remarks() {
                     let span = place::span_of(&remark.place, &root, &decoder);
                     complaints.push(match overlay.name_of(&remark.place, &render) {
-                        Some(name) => Complaint::of_overlay(name, remark).as_warning(),
+                        Some(name) => Complaint::of_overlay(name, remark).into_warning(),
                         None => Complaint::warning(span, remark.message).maybe_help(remark.help),
                     });
                 }
@@ -102,6 +103,8 @@ fn load_tree(
             (usable.then_some((scene, written)), complaints)
         }
         Err(problems) => {
+            let unread: BTreeSet<usize> =
+                complaints.iter().filter(|one| one.is_error()).map(Complaint::start).collect();
             for problem in problems.into_iter().take(decode::MOST_COMPLAINTS) {
                 if let Some(name) = overlay.name_of(&problem.place, &render) {
                     complaints.push(Complaint::of_overlay(name, problem));
@@ -109,7 +112,10 @@ fn load_tree(
                 }
                 let span = place::span_of(&problem.place, &root, &decoder);
                 let doubtful = |near: &Span| near.start <= span.start && span.end <= near.end;
-                if decoder.doubtful.iter().any(doubtful) {
+                // What is wrong with a value by itself is certain if it could be read.
+                let is_certain =
+                    problem.is_of_one_value && unread.range(span.start..span.end.max(span.start + 1)).next().is_none();
+                if !is_certain && decoder.doubtful.iter().any(doubtful) {
                     continue;
                 }
                 let message = decoder.as_written(problem.message, span);

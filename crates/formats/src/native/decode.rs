@@ -49,7 +49,8 @@ pub(crate) struct Decoder<'a> {
     pub(crate) texture_bytes: u64,
     /// Whole numbers beyond all that can be held, which became the largest, as they are written; see [`Decoder::too_large`].
     pub(crate) beyond: Vec<(Span, String)>,
-    /// Values that stand beside one that could not be read: what the check says of them may come from the stand-in.
+    /// Values that stand beside one that could not be read: what the check says of them may come from the stand-in, unless it
+    /// is of one value alone.
     pub(crate) doubtful: Vec<Span>,
 }
 
