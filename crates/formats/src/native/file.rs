@@ -12,6 +12,7 @@ use durer_scene::{
     Texture, TextureId,
 };
 use serde_json::{Value as Json, json};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// The top-level fields. Textures and materials stand before the objects that use them, whatever their order in the
@@ -105,37 +106,56 @@ fn enter_names(root: &Node, cx: &mut Decoder<'_>) {
     }
 }
 
-/// Something that others are called by their names.
-struct Named {
+/// From name to name no more steps are followed.
+const MOST_NAMES: usize = 1000;
+
+/// What entries of a section may be called by.
+struct Names<'d> {
     noun: &'static str,
-    /// Words that say more than a name: kinds.
-    words: &'static [(&'static str, &'static str)],
     example: &'static str,
+    /// Words that say more than a name: kinds.
+    kinds: &'static [(&'static str, &'static str)],
+    ids: &'d BTreeMap<String, u32>,
+    nodes: &'d [Rc<Node>],
 }
 
-const TEXTURES: Named = Named { noun: "texture", words: Pattern::WORDS, example: "checker: {}" };
-const MATERIALS: Named = Named { noun: "material", words: &[], example: "color: red" };
+impl Names<'_> {
+    fn of_textures<'d>(cx: &'d Decoder<'_>) -> Names<'d> {
+        let (ids, nodes) = (&cx.texture_names, &cx.texture_nodes);
+        Names { noun: "texture", example: "checker: {}", kinds: Pattern::WORDS, ids, nodes }
+    }
 
-impl Named {
-    /// The complaint about one of these entries that says nothing but the name of one of them.
-    fn is_but_a_name(&self, (key, value): &Entry, entries: &[Entry]) -> Option<Complaint> {
-        let named = |node: &Node| {
-            let name = node.text().filter(|name| self.words.iter().all(|(word, _)| word != name))?;
-            entries.iter().find(|(key, _)| key.text() == Some(name)).map(|(_, value)| Rc::clone(value))
-        };
-        let mut next = named(value)?;
-        // From name to name: after so many steps as there are names it is a circle.
-        let mut steps = entries.iter();
-        while let (Some(_), Some(behind)) = (steps.next(), named(&next)) {
-            next = behind;
-        }
+    fn of_materials<'d>(cx: &'d Decoder<'_>) -> Names<'d> {
+        let (ids, nodes) = (&cx.material_names, &cx.material_nodes);
+        Names { noun: "material", example: "color: red", kinds: &[], ids, nodes }
+    }
+
+    /// What is called so, if this is nothing but a name.
+    fn named(&self, node: &Node) -> Option<&Rc<Node>> {
+        let name = node.text().filter(|name| self.kinds.iter().all(|(word, _)| word != name))?;
+        self.nodes.get(*self.ids.get(name)? as usize)
+    }
+
+    /// The complaint about an entry that says nothing but the name of another.
+    fn refuse_name(&self, (key, value): &Entry, with_help: bool) -> Option<Complaint> {
+        let mut ahead = self.named(value)?;
         let (noun, example) = (self.noun, self.example);
         let [name, written] = [key, value].map(|node| shorten(node.text().unwrap_or_default()));
         let complaint = Complaint::error(value.span, format!("expected a {noun}, found the name of one, `{written}`"));
-        Some(complaint.help(match named(&next) {
-            Some(_) => format!("these names lead in a circle: say what one of them is, as in `{name}: {{{example}}}`"),
-            None => format!("use `{written}` wherever `{name}` is used"),
-        }))
+        // In a circle one who goes from name to name meets who goes half as fast.
+        let mut behind = ahead;
+        for step in 0..if with_help { MOST_NAMES } else { 0 } {
+            let Some(next) = self.named(ahead) else {
+                return Some(complaint.help(format!("use `{written}` wherever `{name}` is used")));
+            };
+            ahead = next;
+            if Rc::ptr_eq(ahead, behind) {
+                let circle = "these names lead in a circle: say what one of them is, as in";
+                return Some(complaint.help(format!("{circle} `{name}: {{{example}}}`")));
+            }
+            behind = self.named(behind).filter(|_| step % 2 == 1).unwrap_or(behind);
+        }
+        Some(complaint)
     }
 }
 
@@ -154,7 +174,7 @@ impl Value for Textures {
         let Some(entries) = entries_of(node) else { return cx.expected::<Self>(node) };
         for (at, entry) in entries.iter().enumerate() {
             let (_, value) = entry;
-            if let Some(complaint) = TEXTURES.is_but_a_name(entry, entries) {
+            if let Some(complaint) = Names::of_textures(cx).refuse_name(entry, !cx.is_tired()) {
                 let _: Option<()> = cx.complain(complaint);
                 continue;
             }
@@ -196,7 +216,7 @@ impl Value for Materials {
         let Some(entries) = entries_of(node) else { return cx.expected::<Self>(node) };
         for (at, entry) in entries.iter().enumerate() {
             let (_, value) = entry;
-            if let Some(complaint) = MATERIALS.is_but_a_name(entry, entries) {
+            if let Some(complaint) = Names::of_materials(cx).refuse_name(entry, !cx.is_tired()) {
                 let _: Option<()> = cx.complain(complaint);
                 continue;
             }
