@@ -72,6 +72,15 @@ pub(crate) fn count(number: usize, noun: &str) -> String {
     format!("{} {noun}{ending}", thousands(number as u64))
 }
 
+/// `1 sample a pixel`, `8 samples a pixel`, `3 to 8 samples a pixel`.
+pub(crate) fn samples_a_pixel(least: u32, most: u32) -> String {
+    match (least, most) {
+        (1, 1) => "1 sample a pixel".to_owned(),
+        _ if least == most => format!("{least} samples a pixel"),
+        _ => format!("{least} to {most} samples a pixel"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,5 +120,9 @@ mod tests {
             ("1 box".into(), "2 boxes".into(), "0 lights".into())
         );
         assert_eq!(bytes(12_340), "12.3 kB");
+        let cases = [((1, 1), "1 sample a pixel"), ((0, 0), "0 samples a pixel"), ((0, 1), "0 to 1 samples a pixel")];
+        for ((least, most), words) in cases {
+            assert_eq!(samples_a_pixel(least, most), words);
+        }
     }
 }

@@ -118,6 +118,7 @@ impl Overlay for Overrides {
             ("picture", at) => self.size.name_of(at).or_else(|| self.light.name_of(at)),
             ("render", "max_depth") => self.max_depth.filter(|_| !is_path).map(|_| "--max-depth"),
             ("render", "integrator") if field(3) == "max_depth" && self.max_depth.is_some() => Some("--max-depth"),
+            ("render", "integrator") if !field(3).is_empty() => self.light.name_of_part(field(3)),
             ("render", "antialias") => self.antialias.map(|_| "--antialias"),
             ("render", "filter") => self.filter.map(|_| "--filter"),
             ("render", at) => self.light.name_of(at),

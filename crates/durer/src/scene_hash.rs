@@ -2,19 +2,19 @@
 
 use durer_formats::{Sources, to_yaml};
 use durer_math::Fingerprint;
-use durer_scene::{Picture, RenderSettings, Scene};
+use durer_scene::{Integrator, Picture, RenderSettings, Scene};
 use std::collections::BTreeMap;
 use std::fmt::Debug;
 
 /// The fingerprint of a scene, with everything that may change a pixel, in parts: of the scene's text as
 /// [`to_yaml`](crate::to_yaml) writes it without `picture` and `render`, under an empty name; of each of these settings; and of
 /// each file that it names.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SceneHash {
     /// Name and fingerprint of each part, sorted by name. Those of settings begin with a byte that no name of a file has.
     pub(crate) parts: Vec<(String, u128)>,
-    /// The word for what is computed.
-    pub(crate) integrator: String,
+    /// What is computed: not only its hash, so that it can be told what is not the same.
+    pub(crate) integrator: Integrator,
     /// Width and height of the whole picture.
     pub(crate) size: (u32, u32),
 }
@@ -52,12 +52,12 @@ impl SceneHash {
         let mut parts: Vec<(String, u128)> = std::iter::once(own).chain(settings).chain(files).collect();
         parts.sort();
         let Picture { width, height, .. } = scene.picture;
-        SceneHash { parts, integrator: scene.render.integrator.word().to_owned(), size: (width, height) }
+        SceneHash { parts, integrator: scene.render.integrator, size: (width, height) }
     }
 
-    /// The word for what is computed of the scene.
-    pub fn integrator(&self) -> &str {
-        &self.integrator
+    /// What is computed of the scene.
+    pub fn integrator(&self) -> Integrator {
+        self.integrator
     }
 
     /// Width and height of the whole picture.
@@ -163,7 +163,7 @@ mod tests {
         let other = of("picture: {width: 64, height: 32, exposure: 1}\nrender: {integrator: path, seed: 3}");
         let settings = ["exposure", "height", "integrator", "seed"].map(SceneItem::Setting);
         assert_eq!(plain.differences(&other), settings);
-        assert_eq!((other.integrator(), other.size()), ("path", (64, 32)));
+        assert_eq!((other.integrator(), other.size()), (Integrator::PATH, (64, 32)));
         assert_ne!(plain.fingerprint(), other.fingerprint());
         let more = of("picture: {width: 64, height: 48}\nrender: {samples: 99, noise: 0.1, time: 9, seed: 3}");
         let counts = plain.differences(&more);

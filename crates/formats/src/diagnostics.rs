@@ -93,8 +93,12 @@ impl Complaint {
         Complaint { setting: Some(name), ..complaint.maybe_help(problem.help) }
     }
 
+    pub(crate) fn into_warning(self) -> Complaint {
+        Complaint { severity: Severity::Warning, ..self }
+    }
+
     pub(crate) fn warning(span: Span, message: impl Into<String>) -> Complaint {
-        Complaint { severity: Severity::Warning, ..Complaint::error(span, message) }
+        Complaint::error(span, message).into_warning()
     }
 
     pub(crate) fn label(self, label: impl Into<String>) -> Complaint {
@@ -127,6 +131,11 @@ impl Complaint {
         let line = source[before..].lines().next().unwrap_or_default();
         let help = self.help.clone().or_else(|| advise(line));
         Complaint { help, ..self }
+    }
+
+    /// Where its place begins.
+    pub(crate) fn start(&self) -> usize {
+        self.span.start
     }
 
     pub(crate) fn is_error(&self) -> bool {

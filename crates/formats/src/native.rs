@@ -43,6 +43,7 @@ use crate::diagnostics::Complaint;
 use crate::{Assets, Limits, Overlay};
 use decode::Decoder;
 use durer_scene::{CheckedScene, Picture, Place, RenderSettings, Scene, Step};
+use std::collections::BTreeSet;
 use tree::Span;
 
 /// A scene, and the settings that its file has under those that were laid over them.
@@ -80,9 +81,11 @@ fn load_tree(
     overlay.lay_over(&mut scene.picture, &mut scene.render);
     let render = scene.render;
     let mut complaints = std::mem::take(&mut decoder.complaints);
+    let given_elsewhere = settings::places().filter(|place| overlay.name_of(place, &render).is_some());
+    let laid_over: Vec<Span> = given_elsewhere.filter_map(|place| place::whole_span_of(&place, &root)).collect();
     match scene.check() {
         Ok(scene) => {
-            decoder.refuse_those_beyond(&mut complaints);
+            decoder.refuse_those_beyond(&laid_over, &mut complaints);
             let place = Place { steps: ["render", "integrator"].map(Step::Field).into() };
             let chosen_by = overlay.name_of(&place, &render);
             settings::warn_of_unused(&root, &render.integrator, chosen_by.as_deref(), &mut complaints);
@@ -90,13 +93,18 @@ fn load_tree(
             if !complaints.iter().any(Complaint::is_error) {
                 for remark in scene.remarks() {
                     let span = place::span_of(&remark.place, &root, &decoder);
-                    complaints.push(Complaint::warning(span, remark.message).maybe_help(remark.help));
+                    complaints.push(match overlay.name_of(&remark.place, &render) {
+                        Some(name) => Complaint::of_overlay(name, remark).into_warning(),
+                        None => Complaint::warning(span, remark.message).maybe_help(remark.help),
+                    });
                 }
             }
             let usable = !complaints.iter().any(Complaint::is_error);
             (usable.then_some((scene, written)), complaints)
         }
         Err(problems) => {
+            let unread: BTreeSet<usize> =
+                complaints.iter().filter(|one| one.is_error()).map(Complaint::start).collect();
             for problem in problems.into_iter().take(decode::MOST_COMPLAINTS) {
                 if let Some(name) = overlay.name_of(&problem.place, &render) {
                     complaints.push(Complaint::of_overlay(name, problem));
@@ -104,13 +112,16 @@ fn load_tree(
                 }
                 let span = place::span_of(&problem.place, &root, &decoder);
                 let doubtful = |near: &Span| near.start <= span.start && span.end <= near.end;
-                if decoder.doubtful.iter().any(doubtful) {
+                // What is wrong with a value by itself is certain if it could be read.
+                let is_certain =
+                    problem.is_of_one_value && unread.range(span.start..span.end.max(span.start + 1)).next().is_none();
+                if !is_certain && decoder.doubtful.iter().any(doubtful) {
                     continue;
                 }
                 let message = decoder.as_written(problem.message, span);
                 complaints.push(Complaint::error(span, message).maybe_help(problem.help));
             }
-            decoder.refuse_those_beyond(&mut complaints);
+            decoder.refuse_those_beyond(&laid_over, &mut complaints);
             (None, complaints)
         }
     }

@@ -119,6 +119,20 @@ fn large_scenes_load() {
     assert_eq!(load_str(&text, "large", &NoAssets, &Limits::default()).unwrap().scene.scene().objects.len(), 20_000);
 }
 
+/// Who follows all names from each of them never ends.
+#[test]
+fn names_of_names_are_told_soon() {
+    let names: String = (0..20_000).map(|at| format!("  m{at}: m{}\n", at + 1)).collect();
+    for section in ["materials", "textures"] {
+        for end in ["{}", "{checker: {}}", "m0"] {
+            let text = format!("{section}:\n{names}  m20000: {end}\n");
+            let wrong = load_str(&text, "names", &NoAssets, &Limits::default()).unwrap_err();
+            assert!(wrong.list[0].message.ends_with("found the name of one, `m1`"), "{}", wrong.list[0].message);
+            assert_eq!(wrong.list[0].help, None);
+        }
+    }
+}
+
 #[test]
 fn mutated_scenes_never_panic() {
     const SCENE: &str = include_str!("every_field.yaml");

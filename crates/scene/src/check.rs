@@ -74,6 +74,8 @@ pub struct Problem {
     pub message: String,
     /// What to do about it, if that can be said.
     pub help: Option<String>,
+    /// True if it follows from the one value at its place, whatever stands beside that.
+    pub is_of_one_value: bool,
 }
 
 /// A place in a scene: the way from the scene, or from a material, texture or image, down to one value. Field names

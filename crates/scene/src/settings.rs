@@ -97,6 +97,9 @@ impl RenderSettings {
     /// The most samples of a pixel where something else ends them, unless it is said.
     pub const MOST_SAMPLES: u32 = 4096;
 
+    /// No pixel has more samples than this.
+    pub const SAMPLES_LIMIT: u32 = 1_000_000;
+
     /// The most samples of a pixel, for integrators that sample at random.
     pub fn samples_a_pixel(&self) -> u32 {
         let is_open = self.noise.is_some() || self.time.is_some();

@@ -6,7 +6,7 @@ mod picture;
 use crate::exit::{Exit, Failure};
 use crate::interrupt::Interrupt;
 use crate::load::SceneArgs;
-use crate::numbers::{bytes, count, thousands, vector};
+use crate::numbers::{bytes, count, samples_a_pixel, thousands, vector};
 use crate::output;
 use crate::progress::Show;
 use clap::Args;
@@ -196,6 +196,7 @@ impl<'s> Facts<'s> {
                 | Integrator::Depth
                 | Integrator::Uv => render.max_depth,
             },
+            "path": path_json(render.integrator),
             "samples": render.integrator.takes_samples().then(|| json!({
                 "most": render.samples_a_pixel(), "noise": render.noise, "time": render.time, "seed": render.seed,
             })),
@@ -290,15 +291,8 @@ fn integrator_text(render: &RenderSettings) -> String {
     };
     let what = match render.integrator {
         Integrator::Whitted => format!("depth {depth}, antialias {antialias}"),
-        Integrator::Path(PathSettings { max_depth, clamp, split, reuse }) => {
-            let clamp = clamp.map_or(String::new(), |clamp| format!(", clamp {clamp}"));
-            let split = if split > 1 { format!(", split {split}") } else { String::new() };
-            let reuse = if reuse > 1 { format!(", reuse {reuse}") } else { String::new() };
-            format!("path, depth {max_depth}{clamp}{split}{reuse}, {}", samples_text(render))
-        }
-        Integrator::AmbientOcclusion { distance } => {
-            let distance = distance.map_or(String::new(), |distance| format!(", distance {distance}"));
-            format!("ambient_occlusion{distance}, {}", samples_text(render))
+        sampled @ (Integrator::Path(_) | Integrator::AmbientOcclusion { .. }) => {
+            format!("{}, {}", own_settings(sampled), samples_text(render))
         }
         Integrator::Normals | Integrator::Depth | Integrator::Uv => {
             format!("{}, antialias {antialias}", render.integrator.word())
@@ -307,12 +301,36 @@ fn integrator_text(render: &RenderSettings) -> String {
     what + &filter
 }
 
+/// The word for what is computed, and its own settings as far as there is something to say.
+fn own_settings(integrator: Integrator) -> String {
+    match integrator {
+        Integrator::Path(PathSettings { max_depth, clamp, split, reuse }) => {
+            let clamp = clamp.map_or(String::new(), |clamp| format!(", clamp {clamp}"));
+            let split = if split > 1 { format!(", split {split}") } else { String::new() };
+            let reuse = if reuse > 1 { format!(", reuse {reuse}") } else { String::new() };
+            format!("path, depth {max_depth}{clamp}{split}{reuse}")
+        }
+        Integrator::AmbientOcclusion { distance } => {
+            let distance = distance.map_or(String::new(), |distance| format!(", distance {distance}"));
+            format!("ambient_occlusion{distance}")
+        }
+        Integrator::Whitted | Integrator::Normals | Integrator::Depth | Integrator::Uv => integrator.word().to_owned(),
+    }
+}
+
+/// All settings of the path tracer; null of others.
+fn path_json(integrator: Integrator) -> Value {
+    let Integrator::Path(PathSettings { max_depth, clamp, split, reuse }) = integrator else { return Value::Null };
+    json!({ "max_depth": max_depth, "clamp": clamp, "split": split, "reuse": reuse })
+}
+
 /// How many samples a pixel takes, and what else ends them.
 fn samples_text(render: &RenderSettings) -> String {
     let most = if render.noise.is_some() || render.time.is_some() { "at most " } else { "" };
     let noise = render.noise.map_or(String::new(), |noise| format!(", noise {noise}"));
     let time = render.time.map_or(String::new(), |time| format!(", time {time} s"));
-    format!("{most}{} samples a pixel{noise}{time}, seed {}", render.samples_a_pixel(), render.seed)
+    let samples = render.samples_a_pixel();
+    format!("{most}{}{noise}{time}, seed {}", samples_a_pixel(samples, samples), render.seed)
 }
 
 /// The transfer curve, as scenes call it.

@@ -163,8 +163,7 @@ pub(super) fn words_of(film: &Film) -> String {
     let Region { x, y, width, height } = film.region();
     let samples = film.sums().map_or(String::new(), |sums| {
         let (least, most) = sums.least_and_most();
-        let taken = if least == most { least.to_string() } else { format!("{least} to {most}") };
-        format!(", {taken} samples a pixel")
+        format!(", {}", numbers::samples_a_pixel(least, most))
     });
     format!("{width} × {height} pixels from {x},{y}{samples}")
 }

@@ -1,5 +1,6 @@
 //! `durer render`: from a scene file to a picture file.
 
+mod differences;
 mod job;
 mod layers;
 mod manner;
@@ -12,12 +13,14 @@ use crate::load::SceneArgs;
 use crate::overrides::Overrides;
 use crate::target::FileOptions;
 use clap::Args;
+use durer::scene::RenderSettings;
 use durer::{Film, Origin, Region, SampleRange, SimdLevel};
 use layers::LayerOptions;
 use saving::Saving;
 use std::path::{Path, PathBuf};
 
-pub(crate) use job::{Job, Purpose, differences_of_samples};
+pub(crate) use differences::differences_of_samples;
+pub(crate) use job::{Job, Purpose};
 pub(crate) use manner::Manner;
 pub(crate) use saver::remove_checkpoint;
 
@@ -54,7 +57,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
     crop: Option<Region>,
 
-    /// Take only these samples of each pixel, the last excluded: part of what several runs make together
+    /// Take only these samples of each pixel, the last excluded, up to 1000000: part of what several runs make together
     #[arg(long, value_name = "FROM..TO", value_parser = sample_range, allow_hyphen_values = true)]
     sample_range: Option<SampleRange>,
 
@@ -151,10 +154,13 @@ fn crop(text: &str) -> Result<Region, String> {
 }
 
 fn sample_range(text: &str) -> Result<SampleRange, String> {
-    let numbers = text.split_once("..").and_then(|(start, end)| Some((start.parse().ok()?, end.parse().ok()?)));
-    match numbers {
-        Some((start, end)) if start < end => Ok(SampleRange { start, end }),
-        Some(_) => Err("the second number must be greater than the first".to_owned()),
+    const MOST: u32 = RenderSettings::SAMPLES_LIMIT;
+    let number = |text: &str| text.parse::<u64>().ok();
+    let numbers = text.split_once("..").and_then(|(start, end)| Some((number(start)?, number(end)?)));
+    match numbers.map(|(start, end)| (start < end, u32::try_from(start), u32::try_from(end))) {
+        Some((true, Ok(start), Ok(end @ ..=MOST))) => Ok(SampleRange { start, end }),
+        Some((true, _, _)) => Err(format!("a pixel has at most {MOST} samples")),
+        Some((false, _, _)) => Err("the second number must be greater than the first".to_owned()),
         None => Err("expected two whole numbers, FROM..TO, for example 0..64".to_owned()),
     }
 }

@@ -14,6 +14,14 @@ pub(crate) struct Light {
     #[arg(long, value_name = "WHAT", value_parser = choice)]
     integrator: Option<Choice>,
 
+    /// With `path`, so many neighboring pixels use each path: 1, or 4, 16 or 64, those of a block
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    reuse: Option<u32>,
+
+    /// With `path`, so many paths go on from the first surface of each sample that spreads light, from 1 to 64
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    split: Option<u32>,
+
     /// Samples a pixel where light is sampled at random, from 1 to 1000000; at most if there is a noise or time to reach
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     samples: Option<u32>,
@@ -47,6 +55,10 @@ pub(crate) struct Light {
 impl Light {
     pub(super) fn change_render(&self, render: &mut RenderSettings) {
         render.integrator = self.integrator.map_or(render.integrator, |choice| choice.after(&render.integrator));
+        if let Integrator::Path(path) = &mut render.integrator {
+            path.reuse = self.reuse.unwrap_or(path.reuse);
+            path.split = self.split.unwrap_or(path.split);
+        }
         render.samples = self.samples.or(render.samples);
         render.noise = self.noise.or(render.noise);
         render.time = self.time.or(render.time);
@@ -68,8 +80,22 @@ impl Light {
             "samples" => ("--samples", self.samples.is_some()),
             "noise" => ("--noise", self.noise.is_some()),
             "time" => ("--time", self.time.is_some()),
+            "seed" => ("--seed", self.seed.is_some()),
             "light_samples" => ("--light-samples", self.light_samples.is_some()),
             "exposure" => ("--exposure", self.exposure.is_some()),
+            _ => return None,
+        };
+        is_given.then_some(option)
+    }
+
+    /// The option that gives this field of what is computed: `--integrator` gives no more of it than it says.
+    pub(super) fn name_of_part(&self, field: &str) -> Option<&'static str> {
+        let says = |numbers| self.integrator.is_some_and(|choice| choice.given >= numbers);
+        let (option, is_given) = match field {
+            "reuse" => ("--reuse", self.reuse.is_some()),
+            "split" => ("--split", self.split.is_some()),
+            "max_depth" | "distance" => ("--integrator", says(1)),
+            "clamp" => ("--integrator", says(2)),
             _ => return None,
         };
         is_given.then_some(option)
@@ -80,10 +106,13 @@ impl Light {
         let of_samples =
             [("--samples", self.samples.is_some()), ("--noise", self.noise.is_some()), ("--time", self.time.is_some())];
         let of_whitted = [("--light-samples", self.light_samples.is_some())];
+        let of_path = [("--reuse", self.reuse.is_some()), ("--split", self.split.is_some())];
         let given = |(option, is_given): (&'static str, bool)| is_given.then_some(option);
         let samples = of_samples.into_iter().filter(|_| !integrator.takes_samples()).filter_map(given);
         let whitted = of_whitted.into_iter().filter(|_| *integrator != Integrator::Whitted).filter_map(given);
-        samples.chain(whitted).collect()
+        let is_path = matches!(integrator, Integrator::Path(_));
+        let path = of_path.into_iter().filter(|_| !is_path).filter_map(given);
+        samples.chain(whitted).chain(path).collect()
     }
 }
 

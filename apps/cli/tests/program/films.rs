@@ -50,6 +50,20 @@ fn films_that_do_not_fit_are_told() {
     workshop.fine("render ball.yaml --seed 3 --exposure 1 --sample-range 5..6 -o seed.film");
     let differing = "it differs from a.film in the setting `exposure`, the setting `seed`";
     workshop.fails("merge a.film seed.film -o c.png", 4, differing);
+    // Which of the path tracer's settings, and what they are.
+    for (path, others) in [
+        ("{path: {reuse: 16}}", "the setting `reuse` of `path` (16 in place of 1)"),
+        (
+            "{path: {max_depth: 9, clamp: 0.1, split: 2}}",
+            "the setting `max_depth` of `path` (9 in place of 16), the setting `clamp` of `path` (0.1 in place of none), \
+             the setting `split` of `path` (2 in place of 1)",
+        ),
+        ("ambient_occlusion", "the setting `integrator` (`ambient_occlusion` in place of `path`)"),
+    ] {
+        workshop.put("path.yaml", &BALL.replace("integrator: path", &format!("integrator: {path}")));
+        workshop.fine("render path.yaml --sample-range 5..6 -o path.film --quiet");
+        workshop.fails("merge a.film path.film -o c.png", 4, &format!("it differs from a.film in {others}\n"));
+    }
     let what_is_one = "it is no film; films are what `durer render SCENE -o NAME.film` writes";
     workshop.fails("merge a.film ball.yaml -o c.png", 4, what_is_one);
     workshop.fine("render ball.yaml -o picture.png");
@@ -57,6 +71,12 @@ fn films_that_do_not_fit_are_told() {
     workshop.fails("merge a.film -o c.gif", 2, "gif");
     workshop.fails("resume a.film", 4, "it is a finished film");
     workshop.fails("render ball.yaml --sample-range 3..3", 2, "must be greater");
+    for beyond in ["999999..1000001", "0..5000000000"] {
+        workshop.fails(&format!("render ball.yaml --sample-range {beyond}"), 2, "a pixel has at most 1000000 samples");
+    }
+    let last = workshop.fine("render ball.yaml --sample-range 999999..1000000 -o last.film").stderr;
+    assert!(last.contains(", 1 sample a pixel;"), "{last}");
+    assert!(workshop.fine("info last.film").stdout.contains(", 1 sample a pixel\n"));
     workshop.fails("render ball.yaml -o a.film --quality 3", 2, "--quality");
     workshop.fails("render room.yaml -o a.film", 2, "`whitted` takes no samples");
     workshop.fails("render room.yaml --sample-range 0..4", 2, "`whitted` takes no samples");
@@ -113,6 +133,12 @@ fn films_say_what_they_are() {
     let json = workshop.fine("info a.film --json").json();
     assert_eq!((&json["complete"], &json["picture"]["width"]), (&true.into(), &60.into()));
     assert_eq!(json["parts"][0]["samples"], serde_json::json!([3, 8]));
+    let path = serde_json::json!({ "max_depth": 16, "clamp": null, "split": 1, "reuse": 1 });
+    assert_eq!((&json["integrator"], &json["path"]), (&"path".into(), &path));
+    workshop.fine("render ball.yaml --integrator path:9,2.5 --split 3 --reuse 4 --samples 1 -o c.film");
+    assert!(workshop.fine("info c.film").stdout.contains("integrator path, depth 9, clamp 2.5, split 3, reuse 4\n"));
+    let path = serde_json::json!({ "max_depth": 9, "clamp": 2.5, "split": 3, "reuse": 4 });
+    assert_eq!(workshop.fine("info c.film --json").json()["path"], path);
     let bytes = workshop.bytes("a.film");
     std::fs::write(workshop.path("b.film"), &bytes[..bytes.len() / 2]).unwrap();
     workshop.fails("info b.film", 4, "it is damaged");

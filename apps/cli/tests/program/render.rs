@@ -143,6 +143,39 @@ fn the_command_line_wins_over_the_file() {
     assert!(different("--integrator path:2 --samples 1"));
 }
 
+/// As the file would say it; the others of its path tracer stay.
+#[test]
+fn settings_of_the_path_tracer_win_over_those_of_the_file() {
+    let workshop = Workshop::new();
+    let about = |path: &str, options: &str| {
+        let text = format!(
+            "picture: {{width: 16, height: 8}}\nrender: {{integrator: {path}, samples: 2}}\nobjects: [plane, sphere]"
+        );
+        workshop.put("path.yaml", &text);
+        workshop.fine(&format!("render path.yaml -o a.png --quiet {options}"));
+        (workshop.picture("a.png"), workshop.fine("info a.png --json").json()["metadata"].clone())
+    };
+    let (picture, by_options) = about("{path: {reuse: 64, clamp: 5}}", "--reuse 4 --split 3");
+    assert_eq!(
+        (&by_options["Reuse"], &by_options["Split"], &by_options["Clamp"]),
+        (&"4".into(), &"3".into(), &"5".into())
+    );
+    assert!(about("{path: {reuse: 4, split: 3, clamp: 5}}", "").0 == picture);
+    assert!(about("{path: {reuse: 9, split: 0}}", "--reuse 4 --split 3 --integrator path:16,5").0 == picture);
+    // The integrator may be an option, too; to others they mean nothing.
+    assert!(about("whitted", "--integrator path:16,5 --reuse 4 --split 3").0 == picture);
+    let told = workshop.fine("render room.yaml -o a.png --quiet --reuse 4 --split 3").stderr;
+    assert!(told.contains("--reuse means nothing to `whitted`") && told.contains("--split means nothing"), "{told}");
+    workshop.fails("render path.yaml --integrator path --reuse 5", 2, "--reuse: reuse must be 1, 4, 16 or 64, not 5");
+    workshop.fails("render path.yaml --integrator path --split 65", 2, "--split: split must be from 1 to 64, not 65");
+    workshop.put("path.yaml", "render: {integrator: {path: {reuse: 9, clamp: -1}}}\nobjects: [sphere]");
+    let told = workshop.fails("render path.yaml --integrator path:8", 3, "path.yaml:1:37").stderr;
+    assert!(
+        told.contains("reuse must be") && told.contains("clamp must be") && !told.contains("--integrator"),
+        "{told}"
+    );
+}
+
 #[test]
 fn settings_beyond_the_limits_name_their_option() {
     let workshop = Workshop::new();
@@ -203,6 +236,38 @@ fn options_replace_what_the_check_refuses() {
     workshop.fine("render wide.yaml --width 9 --height 9 -o a.png");
     workshop.put("flat.yaml", &format!("picture: {{width: 0, height: 9}}\n{clear}"));
     workshop.fails("render flat.yaml --height 4", 2, "from which the width follows: width must be from 1");
+    // Nor do numbers that are too large for any place.
+    let render = "{seed: 5e9, samples: 6e9, integrator: {path: {split: 7e9}}}";
+    workshop.put("large.yaml", &format!("render: {render}\npicture: {{width: 8e9, height: 9e9}}\n{clear}"));
+    let told = workshop.fails("render large.yaml", 3, "large.yaml:1:16").stderr;
+    assert_eq!(told.matches("error:").count(), 5, "{told}");
+    let size = "--width 9 --height 9 --samples 1";
+    let told = workshop.fails(&format!("render large.yaml {size} --split 1"), 3, "large.yaml:1:16").stderr;
+    assert!(told.matches("error:").count() == 1 && told.contains("this number is too large"), "{told}");
+    let told = workshop.fails(&format!("render large.yaml {size} --seed 1 --integrator path"), 3, "not 7e9").stderr;
+    assert_eq!(told.matches("error:").count(), 1, "{told}");
+    for options in ["--split 1", "--integrator normals"] {
+        workshop.fine(&format!("render large.yaml -o a.png {size} --seed 1 {options}"));
+    }
+}
+
+/// What is said of settings that do nothing is said of the option, if that gives them.
+#[test]
+fn paths_that_cannot_be_reused_are_told() {
+    let workshop = Workshop::new();
+    let small = "picture: {width: 9, height: 9}\nobjects: [sphere]";
+    workshop.put(
+        "fog.yaml",
+        &format!("render: {{integrator: path}}\nfog: {{exponential: {{color: 1, distance: 5}}}}\n{small}"),
+    );
+    workshop.put("clear.yaml", small);
+    let told = |words: &str| workshop.fine(&format!("render {words} -o a.png --samples 1 --quiet")).stderr;
+    assert_eq!(told("fog.yaml"), "");
+    let in_fog = told("fog.yaml --reuse 4");
+    assert!(in_fog.starts_with("warning: --reuse: `reuse` does nothing in fog\n"), "{in_fog}");
+    let flat = told("clear.yaml --integrator path:2 --reuse 4");
+    assert!(flat.starts_with("warning: --reuse: `reuse` does nothing with a `max_depth` of 2"), "{flat}");
+    assert_eq!(told("clear.yaml --integrator path:3 --reuse 4"), "");
 }
 
 #[test]

@@ -4,13 +4,14 @@ use super::{Checkpoint, CheckpointError, CheckpointOutline, Origin};
 use crate::SceneHash;
 use durer_math::{DVec2, Rgb};
 use durer_render::{BadSample, Calm, Film, FilmOutline, FilmParts, Part, RayCounts, Region, SampleRange, Sums};
+use durer_scene::{Integrator, PathSettings};
 use twox_hash::XxHash3_128;
 
 /// How files begin. The last three bytes are changed by programs that take the file for a text.
 const MAGIC: &[u8; 8] = b"durer\x1a\r\n";
 
 /// Of the format.
-pub(super) const VERSION: u32 = 3;
+pub(super) const VERSION: u32 = 4;
 
 /// The most pixels that a picture has in a row or a column.
 const MOST_ACROSS: u32 = 65_535;
@@ -35,7 +36,7 @@ pub fn encode_checkpoint(origin: &Origin, scene: &SceneHash, film: &Film, second
         text(&mut out, name);
         out.extend_from_slice(&hash.to_le_bytes());
     }
-    text(&mut out, &scene.integrator);
+    put_integrator(&mut out, &scene.integrator);
     out.extend_from_slice(&scene.size.0.to_le_bytes());
     out.extend_from_slice(&scene.size.1.to_le_bytes());
     let seconds = if film.is_complete() { 0.0 } else { seconds };
@@ -49,6 +50,24 @@ pub fn encode_checkpoint(origin: &Origin, scene: &SceneHash, film: &Film, second
 fn text(out: &mut Vec<u8>, text: &str) {
     out.extend_from_slice(&(text.len() as u32).to_le_bytes());
     out.extend_from_slice(text.as_bytes());
+}
+
+/// Its word and its numbers.
+fn put_integrator(out: &mut Vec<u8>, integrator: &Integrator) {
+    text(out, integrator.word());
+    match *integrator {
+        Integrator::Path(PathSettings { max_depth, clamp, split, reuse }) => {
+            [max_depth, split, reuse].iter().for_each(|number| out.extend_from_slice(&number.to_le_bytes()));
+            put_if_any(out, clamp.map(f64::from));
+        }
+        Integrator::AmbientOcclusion { distance } => put_if_any(out, distance),
+        Integrator::Whitted | Integrator::Normals | Integrator::Depth | Integrator::Uv => {}
+    }
+}
+
+fn put_if_any(out: &mut Vec<u8>, number: Option<f64>) {
+    out.push(u8::from(number.is_some()));
+    out.extend_from_slice(&number.unwrap_or(0.0).to_le_bytes());
 }
 
 /// Of a film, and of all else that is not unusually long.
@@ -219,10 +238,37 @@ impl<'a> Input<'a> {
     fn head(&mut self) -> Option<Head> {
         let origin = Origin { folder: self.text()?, words: self.list(Input::text)? };
         let parts = self.list(|input| Some((input.text()?, u128::from_le_bytes(input.array()?))))?;
-        let scene = SceneHash { parts, integrator: self.text()?, size: (self.u32()?, self.u32()?) };
+        let scene = SceneHash { parts, integrator: self.integrator()?, size: (self.u32()?, self.u32()?) };
         let seconds =
             Some(f64::from_le_bytes(self.array()?)).filter(|seconds| seconds.is_finite() && *seconds >= 0.0)?;
         Some(Head { origin, scene, seconds })
+    }
+
+    fn integrator(&mut self) -> Option<Integrator> {
+        let path = |input: &mut Self| {
+            let (max_depth, split, reuse) = (input.u32()?, input.u32()?, input.u32()?);
+            let clamp = input.number_if_any()?;
+            // Of single precision: a film has one form.
+            if clamp.is_some_and(|clamp| f64::from(clamp as f32) != clamp) {
+                return None;
+            }
+            let clamp = clamp.map(|clamp| clamp as f32);
+            Some(Integrator::Path(PathSettings { max_depth, clamp, split, reuse }))
+        };
+        match self.text()?.as_str() {
+            "path" => path(self),
+            "ambient_occlusion" => Some(Integrator::AmbientOcclusion { distance: self.number_if_any()? }),
+            word => [Integrator::Whitted, Integrator::Normals, Integrator::Depth, Integrator::Uv]
+                .into_iter()
+                .find(|integrator| integrator.word() == word),
+        }
+    }
+
+    /// What says nothing must be written as nothing.
+    fn number_if_any(&mut self) -> Option<Option<f64>> {
+        let (is_there, number) = (self.flag()?, f64::from_le_bytes(self.array()?));
+        let is_fine = number.is_finite() && (is_there || number.to_bits() == 0);
+        is_fine.then_some(is_there.then_some(number))
     }
 
     fn checkpoint(&mut self) -> Option<Checkpoint> {

@@ -63,6 +63,7 @@ fn going_on_from_a_file_gives_the_picture_of_one_go() {
         "antialias: pov2, filter: gaussian",
         "antialias: {grid: 2}, filter: {blackman_harris: {radius: 3}}",
         "integrator: path, samples: 6",
+        "integrator: {path: {max_depth: 5, clamp: 0.1, split: 2, reuse: 4}}, samples: 2",
         "integrator: path, samples: 20, filter: mitchell",
         "integrator: ambient_occlusion, samples: 3",
     ];
@@ -135,7 +136,8 @@ fn every_flipped_bit_of(scene: &CheckedScene) {
 #[test]
 fn wrong_contents_under_a_right_checksum_are_refused() {
     wrong_contents_of(&scene("antialias: none"));
-    wrong_contents_of(&scene("integrator: path, samples: 2"));
+    wrong_contents_of(&scene("integrator: {path: {clamp: 0.1}}, samples: 2"));
+    wrong_contents_of(&scene("integrator: {ambient_occlusion: {distance: 2}}, samples: 2"));
     wrong_contents_of(&scene("integrator: path, samples: 3, noise: 0.1"));
 }
 

@@ -37,7 +37,10 @@ pub(crate) fn load(
             // Which nodes of a model are empty is its own affair.
             let is_of_objects = |remark: &Problem| remark.place.steps.first() == Some(&Step::Field("objects"));
             let remarks = scene.remarks().into_iter().filter(|remark| !is_of_objects(remark));
-            warnings.extend(remarks.map(|remark| warning(&remark.message).maybe_help(remark.help)));
+            warnings.extend(remarks.map(|remark| match overlay.name_of(&remark.place, &render) {
+                Some(name) => Complaint::of_overlay(name, remark).into_warning(),
+                None => warning(&remark.message).maybe_help(remark.help),
+            }));
             let warnings = Diagnostics::new(warnings, name, "", limits.max_diagnostics);
             Ok(Loaded { scene, warnings, sources: assets.into_sources(), written })
         }

@@ -49,7 +49,8 @@ pub(crate) struct Decoder<'a> {
     pub(crate) texture_bytes: u64,
     /// Whole numbers beyond all that can be held, which became the largest, as they are written; see [`Decoder::too_large`].
     pub(crate) beyond: Vec<(Span, String)>,
-    /// Values that stand beside one that could not be read: what the check says of them may come from the stand-in.
+    /// Values that stand beside one that could not be read: what the check says of them may come from the stand-in, unless it
+    /// is of one value alone.
     pub(crate) doubtful: Vec<Span>,
 }
 
@@ -110,9 +111,12 @@ impl<'a> Decoder<'a> {
         }
     }
 
-    /// Complains of those that the check has nothing against.
-    pub(crate) fn refuse_those_beyond(&mut self, complaints: &mut Vec<Complaint>) {
+    /// Complains of those that the check has nothing against, unless they stand where something else is `laid_over`.
+    pub(crate) fn refuse_those_beyond(&mut self, laid_over: &[Span], complaints: &mut Vec<Complaint>) {
         for (span, _) in std::mem::take(&mut self.beyond) {
+            if laid_over.iter().any(|around| around.start <= span.start && span.end <= around.end) {
+                continue;
+            }
             let complaint = Complaint::error(span, "this number is too large");
             complaints.push(complaint.help(format!("whole numbers go up to {}", u32::MAX)));
         }

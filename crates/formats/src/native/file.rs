@@ -1,16 +1,18 @@
 //! A whole scene file: its top-level fields, and names for textures and materials.
 
 use super::decode::{Decoder, Fields};
-use super::record::{FieldAbout, Record, fields, record};
-use super::tree::{Node, NodeKind};
+use super::record::{Choice, FieldAbout, Record, fields, record};
+use super::tree::{Entry, Node, NodeKind, shorten};
 use super::value::Value;
 use super::write::{FieldsOut, Out, Writer};
+use crate::diagnostics::Complaint;
 use durer_math::Rgb;
 use durer_scene::{
-    Background, Camera, Fog, Light, Material, MaterialId, Object, ObjectKind, Picture, RenderSettings, Scene, Texture,
-    TextureId,
+    Background, Camera, Fog, Light, Material, MaterialId, Object, ObjectKind, Pattern, Picture, RenderSettings, Scene,
+    Texture, TextureId,
 };
 use serde_json::{Value as Json, json};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// The top-level fields. Textures and materials stand before the objects that use them, whatever their order in the
@@ -104,6 +106,59 @@ fn enter_names(root: &Node, cx: &mut Decoder<'_>) {
     }
 }
 
+/// From name to name no more steps are followed.
+const MOST_NAMES: usize = 1000;
+
+/// What entries of a section may be called by.
+struct Names<'d> {
+    noun: &'static str,
+    example: &'static str,
+    /// Words that say more than a name: kinds.
+    kinds: &'static [(&'static str, &'static str)],
+    ids: &'d BTreeMap<String, u32>,
+    nodes: &'d [Rc<Node>],
+}
+
+impl Names<'_> {
+    fn of_textures<'d>(cx: &'d Decoder<'_>) -> Names<'d> {
+        let (ids, nodes) = (&cx.texture_names, &cx.texture_nodes);
+        Names { noun: "texture", example: "checker: {}", kinds: Pattern::WORDS, ids, nodes }
+    }
+
+    fn of_materials<'d>(cx: &'d Decoder<'_>) -> Names<'d> {
+        let (ids, nodes) = (&cx.material_names, &cx.material_nodes);
+        Names { noun: "material", example: "color: red", kinds: &[], ids, nodes }
+    }
+
+    /// What is called so, if this is nothing but a name.
+    fn named(&self, node: &Node) -> Option<&Rc<Node>> {
+        let name = node.text().filter(|name| self.kinds.iter().all(|(word, _)| word != name))?;
+        self.nodes.get(*self.ids.get(name)? as usize)
+    }
+
+    /// The complaint about an entry that says nothing but the name of another.
+    fn refuse_name(&self, (key, value): &Entry, with_help: bool) -> Option<Complaint> {
+        let mut ahead = self.named(value)?;
+        let (noun, example) = (self.noun, self.example);
+        let [name, written] = [key, value].map(|node| shorten(node.text().unwrap_or_default()));
+        let complaint = Complaint::error(value.span, format!("expected a {noun}, found the name of one, `{written}`"));
+        // In a circle one who goes from name to name meets who goes half as fast.
+        let mut behind = ahead;
+        for step in 0..if with_help { MOST_NAMES } else { 0 } {
+            let Some(next) = self.named(ahead) else {
+                return Some(complaint.help(format!("use `{written}` wherever `{name}` is used")));
+            };
+            ahead = next;
+            if Rc::ptr_eq(ahead, behind) {
+                let circle = "these names lead in a circle: say what one of them is, as in";
+                return Some(complaint.help(format!("{circle} `{name}: {{{example}}}`")));
+            }
+            behind = self.named(behind).filter(|_| step % 2 == 1).unwrap_or(behind);
+        }
+        Some(complaint)
+    }
+}
+
 /// The named textures; they live in the scene, so this only says whether there are any.
 #[derive(Clone, Default, PartialEq)]
 struct Textures(Vec<TextureId>);
@@ -117,7 +172,12 @@ impl Value for Textures {
     }
     fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
         let Some(entries) = entries_of(node) else { return cx.expected::<Self>(node) };
-        for (at, (_, value)) in entries.iter().enumerate() {
+        for (at, entry) in entries.iter().enumerate() {
+            let (_, value) = entry;
+            if let Some(complaint) = Names::of_textures(cx).refuse_name(entry, !cx.is_tired()) {
+                let _: Option<()> = cx.complain(complaint);
+                continue;
+            }
             if let Some(texture) = Texture::decode(value, cx) {
                 let name = cx.scene.textures[at].name.take();
                 cx.scene.textures[at] = Texture { name, ..texture };
@@ -154,7 +214,12 @@ impl Value for Materials {
     }
     fn decode(node: &Rc<Node>, cx: &mut Decoder<'_>) -> Option<Self> {
         let Some(entries) = entries_of(node) else { return cx.expected::<Self>(node) };
-        for (at, (_, value)) in entries.iter().enumerate() {
+        for (at, entry) in entries.iter().enumerate() {
+            let (_, value) = entry;
+            if let Some(complaint) = Names::of_materials(cx).refuse_name(entry, !cx.is_tired()) {
+                let _: Option<()> = cx.complain(complaint);
+                continue;
+            }
             if let Some(material) = Material::decode(value, cx) {
                 let name = cx.scene.materials[at].name.take();
                 cx.scene.materials[at] = Material { name, ..material };

@@ -1,11 +1,11 @@
 //! What to say to mistakes that people who come from other programs make.
 
-use super::record::{Choice, KindAbout, Record};
+use super::record::{Choice, FieldAbout, KindAbout, Record};
 use super::suggest;
 use super::surfaces::{Common, Physical};
 use super::tree::{Entry, Node, shorten};
 use crate::diagnostics::Complaint;
-use durer_scene::{Classic, Pattern};
+use durer_scene::{Classic, Integrator, PathSettings, Pattern, RenderSettings};
 
 const STEPS: [&str; 4] = ["translate", "rotate", "scale", "matrix"];
 
@@ -97,6 +97,11 @@ pub(crate) fn unknown_field(title: &str, name: &str, value: &Node, known: &[&str
     if matches!(name, "width" | "height" | "resolution") && matches!(title, "scene" | "camera" | "render") {
         return "the picture's size stands under `picture:`: `picture: {width: 640, height: 480}`".to_owned();
     }
+    let is_around =
+        matches!(title, "scene" | "picture" | "render") || Integrator::WORDS.iter().any(|(word, _)| *word == title);
+    if let (true, Some(help)) = (is_around, field_of_path(name, Some(value))) {
+        return help;
+    }
     if name == "type" || name == "kind" {
         let kind = value.text().unwrap_or("sphere");
         return format!("the kind is written as the key: `- {}: {{…}}`", shorten(kind));
@@ -150,6 +155,16 @@ fn field_of_kinds(name: &str) -> Option<String> {
     Some(format!("that is a field of {list}, of which one would be written `{last}: {{{name}: …}}`"))
 }
 
+/// Help for a field that the path tracer alone has.
+fn field_of_path(name: &str, value: Option<&Node>) -> Option<String> {
+    let has = |fields: Vec<FieldAbout>| fields.iter().any(|field| field.key == name);
+    if !has(PathSettings::about()) || has(RenderSettings::about()) {
+        return None;
+    }
+    let value = value.and_then(Node::text).filter(|text| !text.is_empty()).map_or("…".to_owned(), shorten);
+    Some(format!("that is a field of `path`: `render: {{integrator: {{path: {{{name}: {value}}}}}}}`"))
+}
+
 /// The field of a material of this kind that was probably meant.
 fn field_of_material(noun: &str, word: &str, written: &str) -> Option<&'static str> {
     let kind = Physical::kinds().into_iter().find(|kind| noun == "material" && kind.word == word)?;
@@ -168,6 +183,9 @@ pub(crate) fn unknown_kind(word: &str, value: Option<&Node>, noun: &str, words: 
     }
     if noun == "light" && word == "ambient" {
         return "ambient light is a field of the scene: `ambient: 1`, beside `lights:`".to_owned();
+    }
+    if let ("integrator", Some(help)) = (noun, field_of_path(word, value)) {
+        return help;
     }
     suggest::did_you_mean(word, words, &format!("kinds of {noun}"))
 }

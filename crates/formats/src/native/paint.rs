@@ -165,6 +165,11 @@ fn named(node: &Rc<Node>, text: &str, cx: &mut Decoder<'_>) -> Option<Paint> {
     if cx.is_tired() {
         return cx.refuse(node, &format!("unknown color `{}`", shorten(text)));
     }
+    if cx.material_names.contains_key(text) {
+        let complaint = Complaint::error(node.span, format!("`{}` is a material, not a color", shorten(text)));
+        return cx
+            .complain(complaint.help("here stands a color, or a texture, which is made of colors and other textures"));
+    }
     let textures: Vec<&str> = cx.texture_names.keys().map(String::as_str).collect();
     let complaint = unknown_color(node, text, &textures);
     cx.complain(match textures.is_empty() {

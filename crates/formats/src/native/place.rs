@@ -28,6 +28,15 @@ pub(crate) fn span_of(place: &Place, root: &Rc<Node>, read: &Decoder<'_>) -> Spa
     span
 }
 
+/// All of the value at `place`, which is made of fields alone; `None` if none is written there.
+pub(crate) fn whole_span_of(place: &Place, root: &Rc<Node>) -> Option<Span> {
+    let deeper = |node: &Rc<Node>, step: &Step| match step {
+        Step::Field(name) => node.get(name).map(|(_, value)| Rc::clone(value)),
+        Step::Index(_) | Step::Material(_) | Step::Texture(_) | Step::Image(_) => None,
+    };
+    place.steps.iter().try_fold(Rc::clone(root), |node, step| deeper(&node, step)).map(|node| node.span)
+}
+
 /// The value, unless it is so large that its key says more.
 fn value_or_key(key: &Node, value: &Node) -> Span {
     match &value.kind {

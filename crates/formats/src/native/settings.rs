@@ -11,8 +11,8 @@ use crate::diagnostics::Complaint;
 use durer_imaging::{ToneMapping, Transfer};
 use durer_math::Rgb;
 use durer_scene::{
-    Antialias, Background, Environment, Fog, ImageId, Integrator, PathSettings, Picture, PixelFilter, RenderSettings,
-    Trees,
+    Antialias, Background, Environment, Fog, ImageId, Integrator, PathSettings, Picture, PixelFilter, Place,
+    RenderSettings, Step, Trees,
 };
 use serde_json::{Value as Json, json};
 use std::rc::Rc;
@@ -57,6 +57,17 @@ record!(RenderSettings {
 });
 record_value!(RenderSettings, "render", RenderSettings::default());
 
+/// Where files say what may be said elsewhere, too: all fields of `picture`, of `render` and of the path tracer.
+pub(super) fn places() -> impl Iterator<Item = Place> {
+    let fields_of = |way: &'static [&'static str], about: Vec<FieldAbout>| {
+        let keys = about.into_iter().map(|field| field.key);
+        keys.map(|key| Place { steps: way.iter().copied().chain([key]).map(Step::Field).collect() })
+    };
+    fields_of(&["picture"], Picture::about())
+        .chain(fields_of(&["render"], RenderSettings::about()))
+        .chain(fields_of(&["render", "integrator", "path"], PathSettings::about()))
+}
+
 /// What a file that names its integrator says for another than the one that renders, which may be `chosen_by` an overlay. (A
 /// file that names none may be meant for several, which the command line chooses from.)
 pub(super) fn warn_of_unused(
@@ -66,10 +77,12 @@ pub(super) fn warn_of_unused(
     complaints: &mut Vec<Complaint>,
 ) {
     let Some((_, render)) = root.get("render") else { return };
-    if render.get("integrator").is_none() {
+    let Some((_, written)) = render.get("integrator") else { return };
+    let word = integrator.word();
+    // In place of one that cannot be read stands another, of which nobody has spoken.
+    if chosen_by.is_none() && written.first_word() != Some(word) {
         return;
     }
-    let word = integrator.word();
     let whose = chosen_by.map_or("the integrator of this file".to_owned(), |name| format!("the choice of {name}"));
     let unused: &[(&str, &str)] = match integrator {
         Integrator::Path { .. } => &[

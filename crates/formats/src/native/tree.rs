@@ -57,6 +57,14 @@ impl Node {
         }
     }
 
+    /// The word of a kind: the text of a scalar, or the first key of a mapping.
+    pub(crate) fn first_word(&self) -> Option<&str> {
+        match &self.kind {
+            NodeKind::Mapping(entries) => entries.first().and_then(|(key, _)| key.text()),
+            NodeKind::Scalar { .. } | NodeKind::Sequence(_) => self.text(),
+        }
+    }
+
     /// True for nothing at all, `~` and `null`.
     pub(crate) fn is_null(&self) -> bool {
         match &self.kind {

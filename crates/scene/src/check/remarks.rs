@@ -5,12 +5,13 @@ use super::values::Checker;
 use super::{Step, emptiness};
 use crate::{
     Background, Bump, Channels, Classic, Encoding, Import, Instances, Integrator, Material, MaterialId, MaterialKind,
-    NormalMap, Object, ObjectKind, Paint, Pattern, Relief, Shape, TextureId,
+    NormalMap, Object, ObjectKind, Paint, PathSettings, Pattern, Relief, Shape, TextureId,
 };
 use durer_imaging::{Bitmap, Texels};
 
 pub(super) fn remark(c: &mut Checker<'_>) {
     background(c);
+    reuse(c);
     for (id, one) in (0..).zip(&c.scene.materials) {
         c.at(Step::Material(MaterialId(id)), |c| material(c, one));
     }
@@ -37,6 +38,22 @@ fn background(c: &mut Checker<'_>) {
             let message = "this image has numbers above a million, which are taken for a million";
             c.field("image", |c| c.problem_with_help(message, help));
         }
+    });
+}
+
+/// Paths are shared where nothing but empty space is between surfaces, from the second surface on.
+fn reuse(c: &mut Checker<'_>) {
+    let Integrator::Path(PathSettings { reuse: 2.., max_depth, .. }) = c.scene.render.integrator else { return };
+    let help = "leave it out: each pixel has paths of its own";
+    let message = match c.scene.fog {
+        Some(_) => "`reuse` does nothing in fog".to_owned(),
+        None if max_depth <= 2 => format!("`reuse` does nothing with a `max_depth` of {max_depth}, but from 3 on"),
+        None => return,
+    };
+    c.field("render", |c| {
+        c.field("integrator", |c| {
+            c.field("path", |c| c.field("reuse", |c| c.problem_with_help(message, help)));
+        });
     });
 }
 

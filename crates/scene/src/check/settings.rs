@@ -10,6 +10,8 @@ use durer_math::Rgb;
 
 /// The most rays that one ray of the eye may split into.
 const MOST_RAYS: f64 = 1e8;
+/// The most surfaces on a path.
+const MOST_DEPTH: u32 = 1_000_000;
 /// The most pixels of a picture.
 const MOST_PIXELS: u64 = 400_000_000;
 
@@ -142,6 +144,10 @@ fn render(c: &mut Checker<'_>) {
     let settings = c.scene.render;
     sampling(c, settings);
     let depth = c.within("max_depth", settings.max_depth.into(), 1.0, 100.0);
+    if let (false, Integrator::Path(_)) = (depth, settings.integrator) {
+        let meant = settings.max_depth.clamp(1, MOST_DEPTH);
+        c.advise(format!("`path` has a `max_depth` of its own: `integrator: {{path: {{max_depth: {meant}}}}}`"));
+    }
     let weight = c.within("min_weight", settings.min_weight.into(), 0.0, 1.0);
     if settings.integrator == Integrator::Whitted && depth && weight && most_rays(c.scene) > MOST_RAYS {
         let help = "lower `max_depth`, raise `min_weight`, or let `reflection` and `transparency` add up to less";
@@ -175,7 +181,7 @@ fn sampling(c: &mut Checker<'_>, settings: RenderSettings) {
             c.within("split", split.into(), 1.0, 64.0);
             let message = format!("reuse must be 1, 4, 16 or 64, not {reuse}");
             c.require(PathSettings::REUSES.contains(&reuse), "reuse", message);
-            c.within("max_depth", max_depth.into(), 1.0, 1e6);
+            c.within("max_depth", max_depth.into(), 1.0, MOST_DEPTH.into());
             if let Some(clamp) = clamp {
                 let message = "clamp must be above 0 and at most 1e12; without it nothing is lowered";
                 c.require(clamp > 0.0 && clamp <= 1e12, "clamp", message);
@@ -191,7 +197,7 @@ fn sampling(c: &mut Checker<'_>, settings: RenderSettings) {
         | Integrator::Uv => {}
     });
     if let Some(samples) = settings.samples {
-        c.within("samples", samples.into(), 1.0, 1e6);
+        c.within("samples", samples.into(), 1.0, RenderSettings::SAMPLES_LIMIT.into());
     }
     if let Some(noise) = settings.noise {
         c.within("noise", noise.into(), 1e-4, 1.0);

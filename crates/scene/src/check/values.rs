@@ -64,17 +64,30 @@ impl<'s> Checker<'s> {
     /// A problem right here; always false.
     pub(super) fn problem(&mut self, message: impl Into<String>) -> bool {
         let place = Place { steps: self.place.clone() };
-        self.problems.push(Problem { place, message: message.into(), help: None });
+        self.problems.push(Problem { place, message: message.into(), help: None, is_of_one_value: false });
         false
+    }
+
+    /// What has come of looking at one value alone: unless `fine`, the last problem is of that.
+    fn alone(&mut self, fine: bool) -> bool {
+        if let (false, Some(last)) = (fine, self.problems.last_mut()) {
+            last.is_of_one_value = true;
+        }
+        fine
     }
 
     /// A problem right here, and what to do about it; always false.
     pub(super) fn problem_with_help(&mut self, message: impl Into<String>, help: impl Into<String>) -> bool {
         self.problem(message);
+        self.advise(help);
+        false
+    }
+
+    /// What to do about the last problem.
+    pub(super) fn advise(&mut self, help: impl Into<String>) {
         if let Some(last) = self.problems.last_mut() {
             last.help = Some(help.into());
         }
-        false
     }
 
     /// A problem in a field unless `fine`.
@@ -85,19 +98,20 @@ impl<'s> Checker<'s> {
     /// A number in a range of its own.
     pub(super) fn within(&mut self, name: &'static str, value: f64, least: f64, most: f64) -> bool {
         let message = format!("{name} must be from {least} to {most}, not {value}");
-        self.require((least..=most).contains(&value), name, message)
+        let fine = self.require((least..=most).contains(&value), name, message);
+        self.alone(fine)
     }
 
     /// A radius, width or distance.
     pub(super) fn size(&mut self, name: &'static str, value: f64) -> bool {
-        let wrong = wrong_with_size(name, value);
-        wrong.is_none_or(|message| self.require(false, name, message))
+        let fine = wrong_with_size(name, value).is_none_or(|message| self.require(false, name, message));
+        self.alone(fine)
     }
 
     /// A size that may also be 0.
     pub(super) fn size_or_zero(&mut self, name: &'static str, value: f64) -> bool {
-        let wrong = wrong_with_size_or_zero(name, value);
-        wrong.is_none_or(|message| self.require(false, name, message))
+        let fine = wrong_with_size_or_zero(name, value).is_none_or(|message| self.require(false, name, message));
+        self.alone(fine)
     }
 
     /// A point.
@@ -107,12 +121,14 @@ impl<'s> Checker<'s> {
 
     /// A point that is what the check has come to.
     pub(super) fn point_here(&mut self, name: &str, point: DVec3) -> bool {
-        wrong_with_point(name, point).is_none_or(|message| self.problem(message))
+        let fine = wrong_with_point(name, point).is_none_or(|message| self.problem(message));
+        self.alone(fine)
     }
 
     /// A direction of any usable length.
     pub(super) fn direction(&mut self, name: &'static str, direction: DVec3) -> bool {
-        self.field(name, |c| c.direction_here(name, direction))
+        let fine = self.field(name, |c| c.direction_here(name, direction));
+        self.alone(fine)
     }
 
     /// A direction that is what the check has come to.
@@ -134,7 +150,8 @@ impl<'s> Checker<'s> {
 
     /// Light: no component negative.
     pub(super) fn light(&mut self, name: &'static str, color: Rgb) -> bool {
-        self.field(name, |c| c.light_here(name, color))
+        let fine = self.field(name, |c| c.light_here(name, color));
+        self.alone(fine)
     }
 
     /// Light that is what the check has come to.
@@ -150,7 +167,8 @@ impl<'s> Checker<'s> {
 
     /// A part of light: every component from 0 to 1.
     pub(super) fn fraction(&mut self, name: &'static str, color: Rgb) -> bool {
-        self.field(name, |c| c.fraction_here(name, color))
+        let fine = self.field(name, |c| c.fraction_here(name, color));
+        self.alone(fine)
     }
 
     /// A part of light that is what the check has come to.
@@ -175,7 +193,8 @@ impl<'s> Checker<'s> {
         } else {
             format!("{name} must be at most {BRIGHTEST:e}")
         };
-        self.require((0.0..=BRIGHTEST).contains(&value), name, message)
+        let fine = self.require((0.0..=BRIGHTEST).contains(&value), name, message);
+        self.alone(fine)
     }
 
     /// The field `transform`, and it together with those around it. Gives all of them in one, or only the outer if this

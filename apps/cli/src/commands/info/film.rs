@@ -50,7 +50,7 @@ fn text(checkpoint: &Checkpoint) -> String {
         ("kind", state(checkpoint)),
         ("pixels", words_of(film)),
         ("picture", format!("{width} × {height} pixels")),
-        ("integrator", scene.integrator().to_owned()),
+        ("integrator", super::own_settings(scene.integrator())),
     ];
     let parts = film.sums().map_or(&[][..], |sums| &sums.parts[..]);
     lines.extend(parts.iter().map(|part| ("of", part.to_string())));
@@ -82,7 +82,8 @@ fn json(checkpoint: &Checkpoint) -> Value {
         "complete": film.is_complete(),
         "region": region(film.region()),
         "picture": { "width": scene.size().0, "height": scene.size().1 },
-        "integrator": scene.integrator(),
+        "integrator": scene.integrator().word(),
+        "path": super::path_json(scene.integrator()),
         "samples": taken.map(|(least, most)| json!({ "least": least, "most": most })),
         "parts": parts,
         "direct": film.sums().is_some_and(|sums| !sums.direct.is_empty()),

@@ -1,5 +1,6 @@
 //! One render, from the scene to the picture: a new one, or one that goes on with a checkpoint.
 
+use super::differences::{differences, differences_of_samples};
 use super::layers::most_bytes;
 use super::manner::StatsFormat;
 use super::report::{Report, Seconds};
@@ -13,8 +14,7 @@ use crate::{output, provenance, target};
 use durer::imaging::{EncodeOptions, Layers};
 use durer::{
     CheckedScene, Checkpoint, Film, FilmLayer, Loaded, Origin, PictureFile, Progress, Region, RenderError,
-    RenderOptions, SceneHash, SceneItem, SeenFirst, Sources, WriteError, film_layers, read_checkpoint, seen_first,
-    temporary_beside,
+    RenderOptions, SeenFirst, Sources, WriteError, film_layers, read_checkpoint, seen_first, temporary_beside,
 };
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -429,25 +429,6 @@ fn checkpoint_bytes_a_pixel(scene: &CheckedScene, direct: bool) -> u64 {
 
 fn saving_from_the_start(arguments: &Arguments) -> bool {
     arguments.saving.times().0 == When::Always
-}
-
-/// What is not the same in two scenes, in words.
-fn differences(before: &SceneHash, now: &SceneHash) -> String {
-    in_words(before.differences(now).into_iter())
-}
-
-/// The same, without what changes none of the samples, but only how many there are.
-pub(crate) fn differences_of_samples(before: &SceneHash, now: &SceneHash) -> String {
-    in_words(before.differences(now).into_iter().filter(|item| item.changes_samples()))
-}
-
-fn in_words<'a>(items: impl Iterator<Item = SceneItem<'a>>) -> String {
-    let items = items.map(|item| match item {
-        SceneItem::Scene => "the scene".to_owned(),
-        SceneItem::Setting(name) => format!("the setting `{name}`"),
-        SceneItem::File(name) => format!("`{name}`"),
-    });
-    items.collect::<Vec<_>>().join(", ")
 }
 
 fn how_to_go_on(path: &Path) -> String {

@@ -1,7 +1,7 @@
 //! What there is to say about a render: one line for people, an object for programs.
 
 use crate::exit::Failure;
-use crate::numbers::{bytes, short, thousands};
+use crate::numbers::{bytes, samples_a_pixel, short, thousands};
 use crate::output;
 use durer::imaging::FileFormat;
 use durer::math::DVec2;
@@ -45,10 +45,9 @@ struct Samples {
 impl Samples {
     /// For the line at the end.
     fn text(&self) -> String {
-        let count =
-            if self.least == self.most { self.least.to_string() } else { format!("{} to {}", self.least, self.most) };
+        let count = samples_a_pixel(self.least, self.most);
         let noise = self.noise.map_or(String::new(), |noise| format!(", noise {}", short((noise * 1e4).round() / 1e4)));
-        format!(", {count} samples a pixel{noise}")
+        format!(", {count}{noise}")
     }
 
     fn of(sums: &Sums, noise: Option<f64>) -> Samples {
@@ -200,9 +199,10 @@ impl Report {
         if let Some(Samples { least, most, wanted, .. }) = self.samples {
             let taken = if least == most { least.to_string() } else { format!("{least} to {most}") };
             return output::note(&format!(
-                "{}: {} has {taken} of {wanted} samples a pixel; {} {}",
+                "{}: {} has {taken} of {}; {} {}",
                 self.stopped_by,
                 self.written_path().display(),
+                samples_a_pixel(wanted, wanted),
                 self.path.display(),
                 self.fate(),
             ));

@@ -20,8 +20,8 @@ pub(super) struct Saving {
     pub(super) no_checkpoint: bool,
 
     /// Seconds between checkpoints; more if writing one takes long
-    #[arg(long, value_name = "SECONDS", default_value_t = 20, allow_negative_numbers = true)]
-    checkpoint_every: u32,
+    #[arg(long, value_name = "SECONDS", default_value = "20", value_parser = seconds, allow_negative_numbers = true)]
+    checkpoint_every: Duration,
 }
 
 impl Saving {
@@ -32,7 +32,7 @@ impl Saving {
             (None, true) => When::Never,
             (None, false) => When::IfLong,
         };
-        (when, Duration::from_secs(self.checkpoint_every.into()))
+        (when, self.checkpoint_every)
     }
 
     /// The checkpoints of a picture.
@@ -42,5 +42,27 @@ impl Saving {
             name.push(".durer-checkpoint");
             PathBuf::from(name)
         })
+    }
+}
+
+/// As `--time` takes them: parts of seconds, too.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds: Option<f64> = text.parse().ok();
+    let seconds = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    seconds.ok_or_else(|| "expected a number of seconds from 0 up, for example 20 or 0.5".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seconds_have_parts() {
+        for (text, milliseconds) in [("20", 20_000), ("0.5", 500), ("0", 0), ("1e-3", 1), ("1e9", 1_000_000_000_000)] {
+            assert_eq!(seconds(text), Ok(Duration::from_millis(milliseconds)));
+        }
+        for wrong in ["", "-1", "nan", "inf", "1e300", "1s", "0,5"] {
+            assert!(seconds(wrong).is_err(), "{wrong}");
+        }
     }
 }
