@@ -34,11 +34,12 @@ pub use durer_formats::{
 pub use durer_imaging as imaging;
 pub use durer_math as math;
 pub use durer_render::{
-    BadSample, Bounds, Calm, CompiledScene, Contribution, Element, Film, FilmOutline, FilmParts, GeometryMemory,
-    HeatMap, HitExplanation, HoleExplanation, LightExplanation, MergeError, Merging, NotTraced, Part, PixelExplanation,
-    Progress, RayCounts, RayExplanation, RayKind, Region, RenderError, RenderOptions, SampleExplanation, SampleRange,
-    Scattering, SeenFirst, SimdLevel, Source, Sums, Weighing, compile, compile_for, coverage, explain, heatmap,
-    memory_needed, render, render_on, seen_first, with_threads,
+    ArrivalExplanation, BadSample, Bounds, Calm, CompiledScene, Contribution, Element, Film, FilmOutline, FilmParts,
+    GeometryMemory, HeatMap, HitExplanation, HoleExplanation, JunctionExplanation, LightExplanation, MergeError,
+    Merging, NotTraced, Part, PixelExplanation, Progress, RayCounts, RayExplanation, RayKind, Region, RelativeTo,
+    RenderError, RenderOptions, ReuseExplanation, SampleExplanation, SampleRange, Scattering, SeenFirst, Sharing,
+    SimdLevel, Source, Sums, Turn, Way, Weighing, compile, compile_for, coverage, explain, heatmap, memory_needed,
+    render, render_on, seen_first, with_threads,
 };
 pub use durer_scene as scene;
 pub use durer_scene::{CheckedScene, Scene};

@@ -1,5 +1,7 @@
 //! Replays one pixel and writes down every ray of it.
 
+mod recorder;
+
 use crate::antialias::{Antialias, Rows, Splat};
 use crate::compile::CompiledScene;
 use crate::eye::{SceneEye, begin};
@@ -9,13 +11,13 @@ use crate::holes::Known;
 use crate::integrators::{
     Integrator as AnyIntegrator, Together, ambient_occlusion::AmbientOcclusion, path::PathTracer, sharp::Sharp,
 };
-use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Scattering, Source, SurfaceSeen, Weighing};
+use crate::observer::{NotTraced, RayKind, Scattering, Sharing, Source, Way, Weighing};
 use crate::passes::{Begun, block_of, edge_of_blocks};
 use crate::reconstruct::{Reconstruction, color_of, normalize};
 use crate::schedule::{RenderOptions, WithAntialias, pixel_alone, render, with_antialias};
-use durer_geometry::{Hit, Ray, Surface};
 use durer_math::{DVec2, DVec3, Rgb};
 use durer_scene::{Integrator, MaterialId, PixelFilter};
+use recorder::Recorder;
 
 /// How a pixel got its colour: the sum of the colours of its kept samples, each times its weight, in this order; or their
 /// mean.
@@ -59,9 +61,12 @@ pub struct RayExplanation {
     pub origin: DVec3,
     /// Where it goes; unit length.
     pub direction: DVec3,
-    /// What light at its start counts in the sample; if that comes at a point of which several pixels make use, what it counts
-    /// of the light there, which [`RayKind::Connected`] rays take from there.
+    /// What light at its start counts; of light that is shared, what it would count if no other way found it.
     pub weight: Rgb,
+    /// In what that counts.
+    pub relative_to: RelativeTo,
+    /// Of a split sample: the way that begins with this ray.
+    pub way: Option<Way>,
     /// Surfaces that it went through a hole of before that, in order.
     pub holes: Vec<HoleExplanation>,
     /// What it met; `None` for the background.
@@ -69,13 +74,74 @@ pub struct RayExplanation {
     /// The lights, as seen from there.
     pub lights: Vec<LightExplanation>,
     /// Of a path: how it went on from there, once for each way into which it was split.
-    pub scattering: Vec<Scattering>,
-    /// What it added to the sample, in order, weights included.
+    pub turns: Vec<Turn>,
+    /// If what it met is a junction, or could be one: what came of it. What [`RayKind::Connected`] rays met is one, but of that
+    /// the pixel tells that found it.
+    pub junction: Option<JunctionExplanation>,
+    /// Of a [`RayKind::Connected`] ray: what it took from the junction that it met.
+    pub reuse: Option<ReuseExplanation>,
+    /// What it added to the sample, in order, weights included; nothing if it is relative to a junction.
     pub contributions: Vec<Contribution>,
+    /// What it brought to the junction that it is relative to, in order, weights included: no part of the sample by itself.
+    pub brought: Vec<Contribution>,
     /// Rays that the surface asked for but that were not traced.
     pub not_traced: Vec<(RayKind, Rgb, NotTraced)>,
     /// Rays that started where this one ended.
     pub children: Vec<RayExplanation>,
+}
+
+/// In what light counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RelativeTo {
+    /// In the sample: weights are those of the whole path from the eye.
+    Sample,
+    /// In the light that arrives at the [junction](JunctionExplanation) from which the ray and those before it come: weights begin
+    /// with 1 there.
+    Junction,
+}
+
+/// How a path went on from a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn {
+    /// By which way of several; `None` if there is but one.
+    pub way: Option<Way>,
+    /// Where to. At a junction its weight is that of light to where the path came from, which others see otherwise.
+    pub scattering: Scattering,
+}
+
+/// A surface from which all pixels of a block that see it may take light.
+#[derive(Clone, Debug, PartialEq)]
+pub enum JunctionExplanation {
+    /// Light was looked for there, and this arrives.
+    Found(Vec<ArrivalExplanation>),
+    /// None was looked for, and the path ended: of a split sample the first way alone makes junctions.
+    Left,
+}
+
+/// Light that arrives at a junction, where it is scattered to all that see that.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ArrivalExplanation {
+    /// What was aimed at; `None` if the rays that start there brought it.
+    pub source: Option<Source>,
+    /// Where it comes from; unit length.
+    pub direction: DVec3,
+    /// Radiance over the density of the direction, as far as it counts.
+    pub light: Rgb,
+    /// What it counts beside the other way to find it; `None` if rays brought it, of which each amount tells by itself.
+    pub weighing: Option<Weighing>,
+}
+
+/// Light that is taken from a junction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReuseExplanation {
+    /// The pixel whose path found the junction: column and row.
+    pub pixel: (u32, u32),
+    /// The sample of that pixel, from 0: the same as of this one.
+    pub sample: usize,
+    /// Light that leaves the junction to here.
+    pub light: Rgb,
+    /// What it counts beside the others who see the junction; `None` if only the path that found it takes light from there.
+    pub sharing: Option<Sharing>,
 }
 
 /// Where a ray met a surface.
@@ -179,7 +245,7 @@ pub fn explain(scene: &CompiledScene, x: u32, y: u32) -> Option<PixelExplanation
     }
     let (splats, integrator) = (with_antialias(scene, Samples { scene, x, y }), Sharp::of(scene));
     let explained = splats.iter().filter_map(|splat| {
-        let mut recorder = Recorder { scene, ray: None, open: Vec::new(), weighing: None };
+        let mut recorder = Recorder::new(scene, 0, &[]);
         let (ray, sampler) = begin(scene, splat.at);
         let color = integrator.radiance(scene, &ray, Known::Nothing, &sampler, &mut recorder);
         let weight = (splat.weight != 0.0).then_some(splat.weight);
@@ -199,20 +265,20 @@ fn explain_samples<I: AnyIntegrator>(
     let (color, taken) = (*film.pixels().first()?, film.sums()?.samples() as u32);
     let filter = FilterSampling::new(scene.settings.filter);
     let block = block_of((x, y), edge_of_blocks(integrator), scene.picture_size());
+    let pixels: Vec<(u32, u32)> = block.pixel_places().collect();
     let explained = (0..taken).filter_map(|number| {
         let Begun { at, is_negative, .. } = Begun::new(scene, &filter, (x, y), number);
-        let together = block.pixel_places().map(|pixel| {
+        let together = pixels.iter().map(|&pixel| {
             let Begun { ray, sampler, .. } = Begun::new(scene, &filter, pixel, number);
-            let recorder = Recorder { scene, ray: None, open: Vec::new(), weighing: None };
-            let observer = (pixel == (x, y)).then_some(recorder);
+            let observer = (pixel == (x, y)).then(|| Recorder::new(scene, number as usize, &pixels));
             Together { ray, known: Known::Nothing, sampler, observer, light: Rgb::BLACK }
         });
         let mut together: Vec<Together<'_, Option<Recorder<'_>>>> = together.collect();
         integrator.radiances(scene, &mut together.iter_mut().collect::<Vec<_>>());
         let mut watched = together.into_iter().filter_map(|sample| sample.observer.map(|seen| (sample.light, seen)));
-        let (color, Recorder { ray, .. }) = watched.next()?;
+        let (color, seen) = watched.next()?;
         let weight = if is_negative { -1.0 } else { 1.0 } / taken as f32;
-        Some(SampleExplanation { at, weight: color.is_finite().then_some(weight), color, ray: ray? })
+        Some(SampleExplanation { at, weight: color.is_finite().then_some(weight), color, ray: seen.ray? })
     });
     Some(PixelExplanation { x, y, color, samples: explained.collect(), is_mean: true })
 }
@@ -243,120 +309,6 @@ impl WithAntialias for Samples<'_> {
         let mut splats = Vec::new();
         reconstruction.splats(x, y, &mut splats);
         splats
-    }
-}
-
-/// Writes down what it is told.
-struct Recorder<'s> {
-    scene: &'s CompiledScene,
-    /// The eye's ray, when it has ended.
-    ray: Option<RayExplanation>,
-    /// The ray being traced, and those that led to it.
-    open: Vec<RayExplanation>,
-    /// Of the contribution that comes next.
-    weighing: Option<Weighing>,
-}
-
-impl Observer for Recorder<'_> {
-    fn ray_begins(&mut self, kind: RayKind, depth: u32, ray: &Ray, weight: Rgb) {
-        // Of light that is reused no contribution follows: what others make of it is weighed otherwise.
-        self.weighing = None;
-        let Ray { origin, direction } = *ray;
-        self.open.push(RayExplanation {
-            kind,
-            depth,
-            origin,
-            direction,
-            weight,
-            holes: Vec::new(),
-            hit: None,
-            lights: Vec::new(),
-            scattering: Vec::new(),
-            contributions: Vec::new(),
-            not_traced: Vec::new(),
-            children: Vec::new(),
-        });
-    }
-
-    fn hole(&mut self, hit: &Hit, surface: &Surface, length: f64) {
-        let element = self.element(hit, surface);
-        let hole = HoleExplanation { shape: hit.primitive as usize, element, distance: length };
-        self.with_ray(|ray| ray.holes.push(hole));
-    }
-
-    fn surface(&mut self, seen: &SurfaceSeen) {
-        let hit = HitExplanation {
-            shape: seen.hit.primitive as usize,
-            element: self.element(&seen.hit, &seen.surface),
-            distance: seen.length,
-            point: seen.surface.point,
-            normal: seen.surface.normal,
-            shading_normal: seen.normal,
-            from_outside: seen.from_outside,
-            material: self.material(&seen.hit),
-            color: seen.color,
-            opacity: seen.opacity.unwrap_or(Rgb::WHITE),
-        };
-        self.with_ray(|ray| ray.hit = Some(hit));
-    }
-
-    fn light(&mut self, seen: &LightSeen) {
-        let LightSeen { index, distance, cosine, visibility } = *seen;
-        self.with_ray(|ray| ray.lights.push(LightExplanation { light: index, distance, cosine, visibility }));
-    }
-
-    fn contribution(&mut self, source: Source, amount: Rgb) {
-        let weighing = self.weighing.take();
-        self.with_ray(|ray| ray.contributions.push(Contribution { source, amount, weighing }));
-    }
-
-    fn weighing(&mut self, weighing: &Weighing) {
-        self.weighing = Some(*weighing);
-    }
-
-    fn scattering(&mut self, scattering: &Scattering) {
-        self.with_ray(|ray| ray.scattering.push(*scattering));
-    }
-
-    fn not_traced(&mut self, kind: RayKind, weight: Rgb, why: NotTraced) {
-        self.with_ray(|ray| ray.not_traced.push((kind, weight, why)));
-    }
-
-    fn ray_ends(&mut self) {
-        self.weighing = None;
-        let Some(ray) = self.open.pop() else { return };
-        match self.open.last_mut() {
-            Some(parent) => parent.children.push(ray),
-            None => self.ray = Some(ray),
-        }
-    }
-}
-
-impl Recorder<'_> {
-    /// What was hit of a shape.
-    fn element(&self, hit: &Hit, surface: &Surface) -> Element {
-        let (world, part) = (&self.scene.world, hit.crossing.part);
-        if let Some(details) = self.scene.details(hit.primitive).filter(|details| details.is_solid()) {
-            Element::Operand { index: details.origin(part).0 }
-        } else if let Some(weights) = world.vertex_weights(surface.point, hit) {
-            Element::Triangle { index: part, weights }
-        } else if let Some(index) = world.particle_of(hit) {
-            Element::Particle { index }
-        } else {
-            Element::Face(part)
-        }
-    }
-
-    fn material(&self, hit: &Hit) -> Option<MaterialId> {
-        let id = self.scene.material_at(hit);
-        // The last one is not the scene's.
-        (id as usize + 1 < self.scene.materials.len()).then_some(MaterialId(id))
-    }
-
-    fn with_ray(&mut self, write: impl FnOnce(&mut RayExplanation)) {
-        if let Some(ray) = self.open.last_mut() {
-            write(ray);
-        }
     }
 }
 

@@ -42,12 +42,12 @@ mod whitted_reading;
 pub use compile::{CompiledScene, GeometryMemory, compile, compile_for};
 pub use durer_geometry::{Bounds, SimdLevel};
 pub use explain::{
-    Contribution, Element, HitExplanation, HoleExplanation, LightExplanation, PixelExplanation, RayExplanation,
-    SampleExplanation, explain,
+    ArrivalExplanation, Contribution, Element, HitExplanation, HoleExplanation, JunctionExplanation, LightExplanation,
+    PixelExplanation, RayExplanation, RelativeTo, ReuseExplanation, SampleExplanation, Turn, explain,
 };
 pub use film::{BadSample, Calm, Film, FilmOutline, FilmParts, MergeError, Merging, Part, Region, SampleRange, Sums};
 pub use heatmap::{HeatMap, heatmap};
 pub use memory::memory_needed;
-pub use observer::{NotTraced, RayCounts, RayKind, Scattering, Source, Weighing};
+pub use observer::{NotTraced, RayCounts, RayKind, Scattering, Sharing, Source, Way, Weighing};
 pub use schedule::{Progress, RenderError, RenderOptions, coverage, render, render_on, with_threads};
 pub use seen_first::{SeenFirst, seen_first};

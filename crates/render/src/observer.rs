@@ -15,7 +15,7 @@ pub enum RayKind {
     Reflected,
     /// Through a clear surface, straight or bent.
     Transmitted,
-    /// To a point that a path has met, of which several pixels make use.
+    /// To a junction: a surface that a path has met, from which all pixels of its block that see it take light.
     Connected,
 }
 
@@ -36,7 +36,7 @@ pub enum Source {
     Specular(usize),
     /// An emitter that was aimed at: the light with this index, or a shape or the background.
     Light(Option<usize>),
-    /// Light given back at a point of which several pixels make use, by whichever way it came there.
+    /// Light that leaves a junction, by whichever way it came there.
     Reused,
     /// What an integrator that computes no light shows of a surface: its normal, how far away it is …
     Shown,
@@ -95,6 +95,29 @@ pub struct Scattering {
     pub survival: f32,
 }
 
+/// Of a sample that is split: one of the ways by which it goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Way {
+    /// From 1.
+    pub number: u32,
+    /// How many there are.
+    pub of: u32,
+}
+
+/// Of light that several pixels take from a junction: what it counts for one of them. The balance heuristic, by which the parts of
+/// all add up to one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sharing {
+    /// With which paths from here find the junction, per area.
+    pub density: f64,
+    /// The same of all that see it, added up.
+    pub sum: f64,
+    /// How many these are.
+    pub views: usize,
+    /// What it counts here, from 0 to 1: density / sum.
+    pub part: f64,
+}
+
 /// What shading found out about a hit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfaceSeen {
@@ -124,6 +147,28 @@ pub(crate) struct LightSeen {
     pub(crate) visibility: Rgb,
 }
 
+/// Light that arrives at a junction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ArrivalSeen {
+    /// What was aimed at; `None` if it came along the ray that goes on from there.
+    pub(crate) source: Option<Source>,
+    /// Where it comes from; unit length.
+    pub(crate) direction: DVec3,
+    /// Radiance over the density of the direction, as far as it counts.
+    pub(crate) light: Rgb,
+}
+
+/// Light that is taken from a junction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ReuseSeen {
+    /// Whose path has met it: a number among the samples that are taken together.
+    pub(crate) found_by: usize,
+    /// What leaves it to where it is taken.
+    pub(crate) light: Rgb,
+    /// `None` if only the path that has met it takes light from there.
+    pub(crate) sharing: Option<Sharing>,
+}
+
 /// Told what an integrator does. Rays nest: between `ray_begins` and `ray_ends` of one come those of its children.
 pub(crate) trait Observer {
     fn ray_begins(&mut self, _kind: RayKind, _depth: u32, _ray: &Ray, _weight: Rgb) {}
@@ -137,6 +182,21 @@ pub(crate) trait Observer {
     /// Of the contribution that comes next.
     fn weighing(&mut self, _weighing: &Weighing) {}
     fn scattering(&mut self, _scattering: &Scattering) {}
+    /// What comes next of the surface that the last ray met is that of one of the ways into which the sample is split there.
+    fn way_begins(&mut self, _way: Way) {}
+    /// What the last ray met is a junction: light is looked for there that all who see it may take.
+    fn junction(&mut self) {}
+    /// What the last ray met could be a junction, but only the first way of a split sample makes some: this one ends.
+    fn junction_left(&mut self) {}
+    /// Rays that begin from now on until light [arrives](Observer::arrives) bring it to the junction, and have weights relative to
+    /// that.
+    fn arriving_begins(&mut self) {}
+    /// An amount that such a ray brings, and that is not added to the pixel: others may take it, too.
+    fn brings(&mut self, _source: Source, _amount: Rgb) {}
+    /// Light arrives at the junction that the last ray met.
+    fn arrives(&mut self, _arrival: &ArrivalSeen) {}
+    /// Of the contribution that comes next.
+    fn reuse(&mut self, _reuse: &ReuseSeen) {}
     fn not_traced(&mut self, _kind: RayKind, _weight: Rgb, _why: NotTraced) {}
     fn ray_ends(&mut self) {}
 }
@@ -173,6 +233,34 @@ impl<O: Observer> Observer for Option<O> {
 
     fn scattering(&mut self, scattering: &Scattering) {
         self.iter_mut().for_each(|observer| observer.scattering(scattering));
+    }
+
+    fn way_begins(&mut self, way: Way) {
+        self.iter_mut().for_each(|observer| observer.way_begins(way));
+    }
+
+    fn junction(&mut self) {
+        self.iter_mut().for_each(Observer::junction);
+    }
+
+    fn junction_left(&mut self) {
+        self.iter_mut().for_each(Observer::junction_left);
+    }
+
+    fn arriving_begins(&mut self) {
+        self.iter_mut().for_each(Observer::arriving_begins);
+    }
+
+    fn brings(&mut self, source: Source, amount: Rgb) {
+        self.iter_mut().for_each(|observer| observer.brings(source, amount));
+    }
+
+    fn arrives(&mut self, arrival: &ArrivalSeen) {
+        self.iter_mut().for_each(|observer| observer.arrives(arrival));
+    }
+
+    fn reuse(&mut self, reuse: &ReuseSeen) {
+        self.iter_mut().for_each(|observer| observer.reuse(reuse));
     }
 
     fn not_traced(&mut self, kind: RayKind, weight: Rgb, why: NotTraced) {

@@ -21,7 +21,7 @@ const FLAT: f64 = 1e-3;
 /// A point on a surface, seen from one side.
 #[derive(Clone, Copy)]
 pub(crate) struct Shading<'a> {
-    hit: Hit,
+    pub(crate) hit: Hit,
     pub(crate) primitive: u32,
     pub(crate) surface: Surface,
     pub(crate) material: &'a Material,

@@ -24,10 +24,16 @@ Examples:
   durer explain room.yaml --pixel 120,43
   durer explain room.yaml --pixel 120,43 --antialias none
   durer explain room.yaml --pixel 120,43 --json > pixel.json
+  durer explain box.yaml --pixel 120,43 --sample 2
 
 Pixels are counted from the upper left corner, from 0. The three numbers at the right
 of a line are what it adds to the red, green and blue of the sample, all weights
-included; added up from top to bottom they give the pixel as rendered, to the last bit.";
+included; added up from top to bottom they give the pixel as rendered, to the last bit.
+
+Where paths serve several pixels (`reuse`), light that arrives at a junction is no part
+of the sample: what follows has weights relative to the junction, and no numbers at the
+right. Rays to junctions take it from there, those of other pixels too, and say who found
+them: `--pixel` and `--sample` with these numbers show how.";
 
 /// Show all rays of one pixel, what they hit, and what each adds to it
 #[derive(Args, Debug)]

@@ -120,3 +120,119 @@ fn pixels_outside_are_a_wrong_command() {
     workshop.fails("explain room.yaml", 2, "--pixel");
     workshop.fails("explain bad.yaml --pixel 0,0", 3, "radius");
 }
+
+/// A room whose lamp shines up, with a ball of glass; 12 × 8 pixels.
+const BOX: &str = r"
+camera: {position: [0, 0, 1.8], look_at: [0, -0.3, 0], fov: 60}
+picture: {width: 12, height: 8}
+render: {integrator: {path: {max_depth: 5, reuse: 16}}, samples: 3}
+background: black
+lights: [point: {position: [1, 0, 1], intensity: 0.2, name: candle}]
+objects:
+  - box: {name: room, min: [-2, -1, -2], max: [2, 2, 2], material: {matte: {color: [0.8, 0.6, 0.5]}}}
+  - rectangle:
+      corner: [-1, 1.2, -1]
+      edges: [[0, 0, 2], [2, 0, 0]]
+      material: {matte: {color: 0.5, emission: {color: [8, 7, 5], sides: front}}}
+";
+
+/// All rays of a tree in JSON.
+fn rays(ray: &Value) -> Vec<&Value> {
+    let below = ray["children"].as_array().unwrap().iter().flat_map(rays);
+    std::iter::once(ray).chain(below).collect()
+}
+
+#[test]
+fn people_read_of_junctions() {
+    let workshop = Workshop::new();
+    workshop.put("box.yaml", BOX);
+    let texts: Vec<String> =
+        (0..12).map(|x| workshop.fine(&format!("explain box.yaml --pixel {x},5")).stdout).collect();
+    let text = texts.concat();
+    for part in [
+        "├─ ray to a junction, depth 2, weight 0.8 0.6 0.5\n",
+        "hits box \"room\" after ",
+        "found by this sample; it sends ",
+        "found by sample 2 of pixel ",
+        "densities by area: from here ",
+        ", from all 16 pixels that see it ",
+        "light that leaves it, of which this way counts 0.",
+        "a junction: what arrives is not added up here; all of the block that see it take light from it",
+        "light \"candle\": nothing in the way, ",
+        "  light that was aimed at, of which this way counts 1 (",
+        "    arrives from (",
+        "light of the rays from here\n",
+        ", depth 3, weight 1 relative to the junction\n",
+        "  brings the junction ",
+        " relative to the junction: not traced, deeper than max_depth",
+    ] {
+        assert!(text.contains(part), "no `{part}` in:\n{text}");
+    }
+    assert!(!text.contains("way 1 of"), "{text}");
+    let widest = text.lines().map(|line| line.chars().count()).max();
+    assert!(widest <= Some(150), "{widest:?} columns:\n{text}");
+    // What is relative to a junction has no numbers at the right, where there is room for them after 68 columns.
+    let is_of_junction = |line: &&str| line.contains("brings the junction") || line.contains("arrives from");
+    assert!(text.lines().filter(is_of_junction).all(|line| !line.contains("     0.")), "{text}");
+    let split = BOX.replace("reuse: 16", "reuse: 16, split: 2");
+    workshop.put("split.yaml", &split);
+    let texts: Vec<String> =
+        (0..4).map(|x| workshop.fine(&format!("explain split.yaml --pixel {x},5")).stdout).collect();
+    let text = texts.concat();
+    for part in [
+        "way 1 of 2: goes on towards ",
+        "reflected ray, way 1 of 2, depth 2, weight 0.4 0.3 0.25\n",
+        "reflected ray, way 2 of 2, depth 2, weight 0.4 0.3 0.25\n",
+        "ends here: the first way of each sample finds such light, for all of the block",
+    ] {
+        assert!(text.contains(part), "no `{part}` in:\n{text}");
+    }
+}
+
+#[test]
+fn programs_read_of_junctions() {
+    let workshop = Workshop::new();
+    workshop.put("box.yaml", BOX);
+    let explain = |x: u64, y: u64| workshop.fine(&format!("explain box.yaml --pixel {x},{y} --json")).json();
+    let explained = explain(5, 4);
+    let number = |value: &Value| value.as_f64().unwrap_or_else(|| panic!("no number: {value}"));
+    let mut shared = 0;
+    for (index, sample) in explained["samples"].as_array().unwrap().iter().enumerate() {
+        let mut sum = [0f32; 3];
+        add(&mut sum, &sample["ray"]);
+        assert_eq!(sum.map(f32::to_bits).to_vec(), bits(&sample["color"]), "contributions add up to the sample");
+        for ray in rays(&sample["ray"]) {
+            let is_relative = ray["relative_to"] == "junction";
+            assert!(is_relative || ray["relative_to"] == "sample");
+            let empty = if is_relative { "contributions" } else { "brought" };
+            assert_eq!(ray[empty], serde_json::json!([]));
+            assert_eq!(ray["kind"] == "connected", ray["reuse"].is_object());
+            let reuse = &ray["reuse"];
+            if reuse.is_null() {
+                continue;
+            }
+            assert!(ray["hit"]["place"].is_string() && reuse["found_by"]["sample"] == index + 1);
+            let sharing = &reuse["sharing"];
+            let weight = number(&sharing["mis_weight"]);
+            assert!((weight * number(&sharing["pdf_sum"]) / number(&sharing["pdf"]) - 1.0).abs() < 1e-12);
+            for channel in 0..3 {
+                let amount = number(&ray["contributions"][0]["amount"][channel]);
+                let expected = number(&ray["weight"][channel]) * number(&reuse["radiance"][channel]) * weight;
+                assert!((amount - expected).abs() < 1e-6 * expected, "{ray}");
+            }
+            shared += 1;
+            if shared > 4 {
+                continue;
+            }
+            // Who found it tells of the same point.
+            let pixel = &reuse["found_by"]["pixel"];
+            let finder = explain(pixel[0].as_u64().unwrap(), pixel[1].as_u64().unwrap());
+            let found = rays(&finder["samples"][index]["ray"]);
+            let junction = found.iter().find(|ray| ray["junction"].is_object()).expect("it is there");
+            assert_eq!(junction["hit"]["point"], ray["hit"]["point"]);
+            let arriving = junction["junction"]["arriving"].as_array().unwrap();
+            assert!(arriving.iter().any(|one| one["radiance_over_pdf"] != serde_json::json!([0.0, 0.0, 0.0])));
+        }
+    }
+    assert!(shared > 10, "{shared}");
+}

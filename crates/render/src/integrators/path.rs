@@ -20,7 +20,7 @@ use crate::emitters::{LightSample, Receiver};
 use crate::frame::Frame;
 use crate::holes::{Known, meet};
 use crate::media::Media;
-use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Scattering, Source, SurfaceSeen, Weighing};
+use crate::observer::{LightSeen, NotTraced, Observer, RayKind, Scattering, Source, SurfaceSeen, Way, Weighing};
 use crate::sampler::{Purpose, Sampler};
 use crate::shading::Shading;
 use crate::surfaces::Indices;
@@ -322,6 +322,7 @@ impl<'a, O: Observer> Path<'a, O> {
         let (sampler, state, media) = (self.sampler, self.state, self.media.clone());
         (self.pause, self.share) = (Pause::Nowhere, 1.0 / ways as f32);
         for number in 0..ways {
+            self.observer.way_begins(Way { number: number + 1, of: ways });
             (self.sampler, self.media) = (sampler.split(number, ways), media.clone());
             self.state = State { weight: state.weight * self.share, ..state };
             if self.turn(vertex, ways) {
@@ -723,6 +724,7 @@ impl<'a, O: Observer> Path<'a, O> {
         let mut amount = self.state.weight * light;
         if self.is_apart {
             self.sum += amount;
+            self.observer.brings(source, amount);
             return;
         }
         if let (Some(most), false) = (self.tracer.0.clamp, source.is_direct(self.state.depth)) {

@@ -4,8 +4,8 @@ use super::{Explained, words};
 use crate::labels;
 use durer::math::{DVec3, Rgb};
 use durer::{
-    Contribution, HitExplanation, HoleExplanation, LightExplanation, RayExplanation, SampleExplanation, Scattering,
-    Weighing,
+    ArrivalExplanation, Contribution, HitExplanation, HoleExplanation, JunctionExplanation, LightExplanation,
+    RayExplanation, ReuseExplanation, SampleExplanation, Scattering, Turn, Way, Weighing,
 };
 use serde_json::{Value, json};
 
@@ -42,11 +42,16 @@ impl Explained<'_> {
             "origin": xyz(ray.origin),
             "direction": xyz(ray.direction),
             "weight": rgb(ray.weight),
+            "relative_to": words::relative_to_key(ray.relative_to),
+            "way": ray.way.map(way),
             "holes": ray.holes.iter().map(|hole| self.hole_json(hole)).collect::<Vec<_>>(),
             "hit": ray.hit.as_ref().map(|hit| self.hit_json(hit)),
             "lights": ray.lights.iter().map(|light| self.light_json(light)).collect::<Vec<_>>(),
-            "scattering": ray.scattering.iter().map(scattering).collect::<Vec<_>>(),
+            "scattering": ray.turns.iter().map(turn).collect::<Vec<_>>(),
+            "junction": ray.junction.as_ref().map(junction),
+            "reuse": ray.reuse.as_ref().map(reuse),
             "contributions": ray.contributions.iter().map(contribution).collect::<Vec<_>>(),
+            "brought": ray.brought.iter().map(contribution).collect::<Vec<_>>(),
             "not_traced": not_traced.collect::<Vec<_>>(),
             "children": ray.children.iter().map(|child| self.ray_json(child)).collect::<Vec<_>>(),
         })
@@ -99,18 +104,61 @@ fn contribution(contribution: &Contribution) -> Value {
         "source": words::source_key(contribution.source),
         "light": words::light_of(contribution.source),
         "amount": rgb(contribution.amount),
-        "weighing": contribution.weighing.map(|Weighing { by_surface, by_aiming, part }| {
-            json!({ "pdf_surface": by_surface, "pdf_light": by_aiming, "mis_weight": part })
-        }),
+        "weighing": contribution.weighing.map(weighing),
     })
 }
 
-fn scattering(scattering: &Scattering) -> Value {
+fn weighing(Weighing { by_surface, by_aiming, part }: Weighing) -> Value {
+    json!({ "pdf_surface": by_surface, "pdf_light": by_aiming, "mis_weight": part })
+}
+
+fn turn(turn: &Turn) -> Value {
+    let Scattering { direction, pdf, weight, survival } = turn.scattering;
     json!({
-        "direction": xyz(scattering.direction),
-        "pdf": scattering.pdf,
-        "weight": rgb(scattering.weight),
-        "survival": scattering.survival,
+        "way": turn.way.map(way),
+        "direction": xyz(direction),
+        "pdf": pdf,
+        "weight": rgb(weight),
+        "survival": survival,
+    })
+}
+
+fn way(Way { number, of }: Way) -> Value {
+    json!({ "number": number, "of": of })
+}
+
+/// `arriving` is null where no light was looked for.
+fn junction(junction: &JunctionExplanation) -> Value {
+    let arrival = |arrival: &ArrivalExplanation| {
+        json!({
+            "source": arrival.source.map_or("ray", words::source_key),
+            "light": arrival.source.and_then(words::light_of),
+            "direction": xyz(arrival.direction),
+            "radiance_over_pdf": rgb(arrival.light),
+            "weighing": arrival.weighing.map(weighing),
+        })
+    };
+    let arriving = match junction {
+        JunctionExplanation::Found(arrivals) => Some(arrivals.iter().map(arrival).collect::<Vec<_>>()),
+        JunctionExplanation::Left => None,
+    };
+    json!({ "arriving": arriving })
+}
+
+/// Samples are counted from 1, as `--sample` has it. Densities are by area.
+fn reuse(reuse: &ReuseExplanation) -> Value {
+    let (x, y) = reuse.pixel;
+    json!({
+        "found_by": { "pixel": [x, y], "sample": reuse.sample + 1 },
+        "radiance": rgb(reuse.light),
+        "sharing": reuse.sharing.map(|sharing| {
+            json!({
+                "pdf": sharing.density,
+                "pdf_sum": sharing.sum,
+                "views": sharing.views,
+                "mis_weight": sharing.part,
+            })
+        }),
     })
 }
 

@@ -8,8 +8,8 @@ use crate::numbers::{color, count, short, vector};
 use durer::imaging::Transfer;
 use durer::math::Rgb;
 use durer::{
-    Contribution, HitExplanation, LightExplanation, NotTraced, RayExplanation, RayKind, SampleExplanation, Scattering,
-    Weighing,
+    ArrivalExplanation, Contribution, HitExplanation, JunctionExplanation, LightExplanation, NotTraced, RayExplanation,
+    RayKind, RelativeTo, ReuseExplanation, SampleExplanation, Scattering, Sharing, Turn, Weighing,
 };
 
 /// More samples than this are only listed.
@@ -79,9 +79,12 @@ impl Explained<'_> {
     fn ray(&self, page: &mut Ledger, ray: &RayExplanation) {
         let weight = match ray.kind {
             RayKind::Eye => String::new(),
-            RayKind::Reflected | RayKind::Transmitted | RayKind::Connected => format!(", weight {}", color(ray.weight)),
+            RayKind::Reflected | RayKind::Transmitted | RayKind::Connected => {
+                format!(", weight {}{}", color(ray.weight), words::relative_to(ray.relative_to))
+            }
         };
-        page.line(&format!("{}, depth {}{weight}", words::ray(ray.kind), ray.depth));
+        let way = ray.way.map_or_else(String::new, |way| format!(", {}", words::way(way)));
+        page.line(&format!("{}{way}, depth {}{weight}", words::ray(ray.kind), ray.depth));
         let ends = ray.children.is_empty() && ray.not_traced.is_empty();
         page.within(if ends { "   " } else { "│  " }, |page| self.of_ray(page, ray));
         self.branches(page, ray);
@@ -96,28 +99,53 @@ impl Explained<'_> {
         }
         match &ray.hit {
             Some(hit) => self.hit(page, hit),
-            None if ray.kind == RayKind::Connected => {}
             None => page.line("hits nothing"),
         }
-        for contribution in ray.contributions.iter().filter(|c| words::light_of(c.source).is_none()) {
-            page.amount(&with_weighing(words::source(contribution.source), contribution), contribution.amount);
+        if let Some(reuse) = &ray.reuse {
+            self.reuse(page, reuse);
         }
-        for light in &ray.lights {
-            page.line(&self.light(light));
-            let from_it = ray.contributions.iter().filter(|c| words::light_of(c.source) == Some(light.light));
-            for contribution in from_it {
-                let source = format!("  {}", words::source(contribution.source));
-                page.amount(&with_weighing(&source, contribution), contribution.amount);
-            }
-        }
-        for Scattering { direction, pdf, weight, survival } in &ray.scattering {
-            let density = pdf.map_or_else(|| "the only direction".to_owned(), |pdf| format!("density {}", short(pdf)));
-            let chance = match survival {
-                1.0 => String::new(),
-                survival => format!(", with a chance of {}", short(f64::from(*survival))),
+        for contribution in amounts_of(ray).filter(|c| words::light_of(c.source).is_none()) {
+            let source = match ray.reuse.and_then(|reuse| reuse.sharing) {
+                Some(Sharing { part, .. }) => counting(words::source(contribution.source), part),
+                None => with_weighing(words::source(contribution.source), contribution.weighing),
             };
-            page.line(&format!("goes on towards {}, {density}, × {}{chance}", vector(*direction), color(*weight)));
+            amount(page, &source, (contribution.amount, ray.relative_to));
         }
+        if let Some(junction) = &ray.junction {
+            page.line(words::junction(junction));
+        }
+        for arrival in arrivals_of(ray).filter(|a| a.source.and_then(words::light_of).is_none()) {
+            arrives(page, arrival);
+        }
+        ray.lights.iter().for_each(|light| self.of_light(page, ray, light));
+        ray.turns.iter().for_each(|turn| goes_on(page, turn));
+    }
+
+    /// What a ray took from a junction.
+    fn reuse(&self, page: &mut Ledger, reuse: &ReuseExplanation) {
+        let ((x, y), sample) = (reuse.pixel, reuse.sample + 1);
+        let who = match reuse.pixel == (self.pixel.x, self.pixel.y) {
+            true => "this sample".to_owned(),
+            false => format!("sample {sample} of pixel {x},{y}"),
+        };
+        let alone = if reuse.sharing.is_none() { ", which alone takes light from it" } else { "" };
+        page.line(&format!("found by {who}{alone}; it sends {} here", three(reuse.light)));
+        if let Some(Sharing { density, sum, views, .. }) = reuse.sharing {
+            let (density, sum, pixels) = (short(density), short(sum), count(views, "pixel"));
+            page.line(&format!("densities by area: from here {density}, from all {pixels} that see it {sum}"));
+        }
+    }
+
+    /// What a ray sees of a light, and has from it.
+    fn of_light(&self, page: &mut Ledger, ray: &RayExplanation, light: &LightExplanation) {
+        page.line(&self.light(light));
+        for contribution in amounts_of(ray).filter(|c| words::light_of(c.source) == Some(light.light)) {
+            let source = format!("  {}", words::source(contribution.source));
+            let source = with_weighing(&source, contribution.weighing);
+            amount(page, &source, (contribution.amount, ray.relative_to));
+        }
+        let from_it = arrivals_of(ray).filter(|a| a.source.and_then(words::light_of) == Some(light.light));
+        from_it.for_each(|arrival| page.within("  ", |page| arrives(page, arrival)));
     }
 
     fn hit(&self, page: &mut Ledger, hit: &HitExplanation) {
@@ -159,7 +187,8 @@ impl Explained<'_> {
         }
         for (kind, weight, why) in &ray.not_traced {
             left -= 1;
-            page.fork(left == 0, |page| page.line(&not_traced(*kind, *weight, *why)));
+            let weight = format!("{}{}", color(*weight), words::relative_to(ray.relative_to));
+            page.fork(left == 0, |page| page.line(&not_traced(*kind, &weight, *why)));
         }
     }
 
@@ -189,17 +218,63 @@ impl Explained<'_> {
     }
 }
 
-/// A source, and what it counts if light can be found in two ways.
-fn with_weighing(source: &str, contribution: &Contribution) -> String {
-    match contribution.weighing {
-        None => source.to_owned(),
-        Some(Weighing { by_surface, by_aiming, part }) => format!(
-            "{source}, of which this way counts {} (densities: surface {}, light {})",
-            short(part),
-            short(by_surface),
-            short(by_aiming)
-        ),
+/// What a ray added to the sample, or brought to a junction: never both.
+fn amounts_of(ray: &RayExplanation) -> impl Iterator<Item = &Contribution> {
+    ray.contributions.iter().chain(&ray.brought)
+}
+
+/// What arrives at the surface that a ray met, if it is a junction.
+fn arrivals_of(ray: &RayExplanation) -> impl Iterator<Item = &ArrivalExplanation> {
+    let arrivals = match &ray.junction {
+        Some(JunctionExplanation::Found(arrivals)) => arrivals.as_slice(),
+        Some(JunctionExplanation::Left) | None => &[],
+    };
+    arrivals.iter()
+}
+
+/// An amount of light: at the right, if it is one of those that add up to the sample.
+fn amount(page: &mut Ledger, source: &str, (amount, relative_to): (Rgb, RelativeTo)) {
+    match relative_to {
+        RelativeTo::Sample => page.amount(source, amount),
+        RelativeTo::Junction => {
+            page.line(source);
+            page.line(&format!("  brings the junction {}", three(amount)));
+        }
     }
+}
+
+fn arrives(page: &mut Ledger, arrival: &ArrivalExplanation) {
+    let source = arrival.source.map_or("light of the rays from here", words::source);
+    page.line(&with_weighing(source, arrival.weighing));
+    let (light, direction) = (three(arrival.light), vector(arrival.direction));
+    page.line(&format!("  arrives from {direction}: {light}, radiance over density"));
+}
+
+fn goes_on(page: &mut Ledger, turn: &Turn) {
+    let Scattering { direction, pdf, weight, survival } = turn.scattering;
+    let way = turn.way.map_or_else(String::new, |way| format!("{}: ", words::way(way)));
+    let density = pdf.map_or_else(|| "the only direction".to_owned(), |pdf| format!("density {}", short(pdf)));
+    let chance = match survival {
+        1.0 => String::new(),
+        survival => format!(", with a chance of {}", short(f64::from(survival))),
+    };
+    page.line(&format!("{way}goes on towards {}, {density}, × {}{chance}", vector(direction), color(weight)));
+}
+
+/// A source, and what it counts if light can be found in two ways.
+fn with_weighing(source: &str, weighing: Option<Weighing>) -> String {
+    match weighing {
+        None => source.to_owned(),
+        Some(Weighing { by_surface, by_aiming, part }) => {
+            let (surface, light) = (short(by_surface), short(by_aiming));
+            counting(source, part) + &format!(" (densities: surface {surface}, light {light})")
+        }
+    }
+}
+
+/// A source, and what it counts beside other ways to find it.
+fn counting(source: &str, part: f64) -> String {
+    format!("{source}, of which this way counts {}", short(part))
 }
 
 /// Always three numbers, where one alone could be taken for something else.
@@ -207,6 +282,6 @@ fn three(color: Rgb) -> String {
     color.to_array().map(|v| short(f64::from(v))).join(" ")
 }
 
-fn not_traced(kind: RayKind, weight: Rgb, why: NotTraced) -> String {
-    format!("{}, weight {}: not traced, {}", words::ray(kind), color(weight), words::why_not(why))
+fn not_traced(kind: RayKind, weight: &str, why: NotTraced) -> String {
+    format!("{}, weight {weight}: not traced, {}", words::ray(kind), words::why_not(why))
 }

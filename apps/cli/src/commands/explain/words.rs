@@ -1,7 +1,7 @@
 //! Words for the façade's enums.
 
 use crate::numbers::short;
-use durer::{Element, NotTraced, RayKind, Source};
+use durer::{Element, JunctionExplanation, NotTraced, RayKind, RelativeTo, Source, Way};
 use serde_json::{Value, json};
 
 /// In sentences.
@@ -10,7 +10,7 @@ pub(super) fn ray(kind: RayKind) -> &'static str {
         RayKind::Eye => "ray of the eye",
         RayKind::Reflected => "reflected ray",
         RayKind::Transmitted => "transmitted ray",
-        RayKind::Connected => "ray to a point that a path of this block of pixels has met",
+        RayKind::Connected => "ray to a junction",
     }
 }
 
@@ -34,7 +34,7 @@ pub(super) fn source(source: Source) -> &'static str {
         Source::Diffuse(_) => "diffuse",
         Source::Specular(_) => "highlight",
         Source::Light(_) => "light that was aimed at",
-        Source::Reused => "light that was found there",
+        Source::Reused => "light that leaves it",
         Source::Shown => "what is shown of it",
     }
 }
@@ -99,5 +99,39 @@ pub(super) fn why_not_key(why: NotTraced) -> &'static str {
     match why {
         NotTraced::TooDeep => "too_deep",
         NotTraced::TooFaint => "too_faint",
+    }
+}
+
+/// In sentences, after a weight; empty where it is that of all others.
+pub(super) fn relative_to(relative_to: RelativeTo) -> &'static str {
+    match relative_to {
+        RelativeTo::Sample => "",
+        RelativeTo::Junction => " relative to the junction",
+    }
+}
+
+/// In JSON.
+pub(super) fn relative_to_key(relative_to: RelativeTo) -> &'static str {
+    match relative_to {
+        RelativeTo::Sample => "sample",
+        RelativeTo::Junction => "junction",
+    }
+}
+
+/// In sentences.
+pub(super) fn way(Way { number, of }: Way) -> String {
+    format!("way {number} of {of}")
+}
+
+/// In sentences, of the surface that a ray met.
+pub(super) fn junction(junction: &JunctionExplanation) -> &'static str {
+    match junction {
+        JunctionExplanation::Found(arrivals) if arrivals.iter().all(|arrival| arrival.light.is_black()) => {
+            "a junction, at which no light arrives"
+        }
+        JunctionExplanation::Found(_) => {
+            "a junction: what arrives is not added up here; all of the block that see it take light from it"
+        }
+        JunctionExplanation::Left => "ends here: the first way of each sample finds such light, for all of the block",
     }
 }

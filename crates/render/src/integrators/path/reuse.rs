@@ -18,12 +18,12 @@
 //! A picture is as true as without, and has far less noise where most light comes by way of other things; for a path costs much
 //! more than a ray that asks whether two points see each other. What is left of the noise is alike in the pixels of a block.
 
-use super::{MOST_CASTING, Path, PathTracer, Pause, Paused, State, Vertex};
+use super::{Arriving, MOST_CASTING, Path, PathTracer, Pause, Paused, State, Vertex};
 use crate::bsdf::Bsdf;
 use crate::compile::CompiledScene;
 use crate::frame::Frame;
 use crate::integrators::Together;
-use crate::observer::{Observer, RayKind, Source};
+use crate::observer::{ArrivalSeen, Observer, RayKind, ReuseSeen, Sharing, Source, SurfaceSeen, Way};
 use crate::shading::Shading;
 use arrayvec::ArrayVec;
 use durer_geometry::{LANES, Packet, Ray};
@@ -63,11 +63,10 @@ pub(super) fn trace<O: Observer>(tracer: &PathTracer, scene: &CompiledScene, sam
             from.into_iter().for_each(|view| members[view.member].path.add_own(junction, view));
             continue;
         }
-        let density: f64 = seen.iter().filter(|seen| !seen.is_dark).map(|seen| seen.density).sum();
-        for &Seen { member, way, scattered, area, .. } in seen.iter().filter(|seen| seen.brings_light()) {
-            let light =
-                junction.toward(junction.frame.to_local(-way.direction)) * scattered * ((area / density) as f32);
-            members[member].path.add_reused(way, light);
+        let sum: f64 = seen.iter().filter(|seen| !seen.is_dark).map(|seen| seen.density).sum();
+        let views = seen.iter().filter(|seen| !seen.is_dark).count();
+        for seen in seen.iter().filter(|seen| seen.brings_light()) {
+            members[seen.member].path.add_shared(junction, seen, (sum, views));
         }
     }
     for (mut member, light) in members.into_iter().zip(lights) {
@@ -143,6 +142,7 @@ impl<'a, O: Observer> Member<'a, O> {
         let ways = path.tracer.0.split;
         let (sampler, state) = (path.sampler, path.state);
         for number in 0..ways {
+            path.observer.way_begins(Way { number: number + 1, of: ways });
             path.sampler = if number == 0 { sampler } else { sampler.another().split(number, ways) };
             path.share = 1.0 / ways as f32;
             path.state = State { weight: state.weight * path.share, ..state };
@@ -157,9 +157,13 @@ impl<'a, O: Observer> Member<'a, O> {
             path.state.met += 1;
             let segments = path.follow(crate::holes::Known::Nothing);
             // Junctions are those of the first way, with its density alone.
-            if let Some(found) = path.paused.take().filter(|_| number == 0) {
-                (path.share, path.state.weight) = (1.0, path.state.weight * ways as f32);
-                junctions.push(path.junction(index, &found.vertex()));
+            match path.paused.take() {
+                Some(found) if number == 0 => {
+                    (path.share, path.state.weight) = (1.0, path.state.weight * ways as f32);
+                    junctions.push(path.junction(index, &found.vertex()));
+                }
+                Some(_) => path.observer.junction_left(),
+                None => {}
             }
             path.end_rays(segments);
         }
@@ -201,10 +205,13 @@ impl<'a, O: Observer> Path<'a, O> {
     /// Finds out what light arrives at a surface, by aiming and by going on. What may not be seen by others is added up.
     fn junction(&mut self, member: usize, found: &Vertex<'_, 'a>) -> Junction<'a> {
         let mut lights = ArrayVec::new();
+        self.observer.junction();
         let light = self.choose_light(found);
-        if let Some(arriving) = light.and_then(|light| self.arriving(found, &light, 1)) {
-            let kept = found.shading.kept(found.frame.to_world(arriving.toward)) as f32;
-            lights.push((arriving.toward, arriving.light * kept));
+        if let Some(Arriving { source, toward, light, .. }) = light.and_then(|light| self.arriving(found, &light, 1)) {
+            let direction = found.frame.to_world(toward);
+            let light = light * found.shading.kept(direction) as f32;
+            self.observer.arrives(&ArrivalSeen { source: Some(source), direction, light });
+            lights.push((toward, light));
         }
         let State { depth, weight, .. } = self.state;
         // What others make of light by way of casters is not known.
@@ -220,7 +227,9 @@ impl<'a, O: Observer> Path<'a, O> {
                     // Roulette goes by what it counts for a vertex that is about as bright as the path's own, if not too dark.
                     let brightness = (weight.max_component() / self.share).clamp(DARK, 1.0);
                     self.state.scale = 1.0 / (self.state.weight.max_component() * brightness * self.share);
+                    self.observer.arriving_begins();
                     let light = self.arriving_from_there() * counts as f32;
+                    self.observer.arrives(&ArrivalSeen { source: None, direction, light });
                     lights.push((found.frame.to_local(direction), light));
                 }
                 None => {
@@ -251,20 +260,34 @@ impl<'a, O: Observer> Path<'a, O> {
         std::mem::replace(&mut self.sum, sum)
     }
 
-    /// Adds light from a junction.
-    fn add_reused(&mut self, way: Ray, light: Rgb) {
-        let State { weight, depth, .. } = self.state;
-        self.observer.ray_begins(RayKind::Connected, depth + 1, &way, weight);
-        self.add(Source::Reused, light);
-        self.observer.ray_ends();
+    /// Adds light from a junction, which so many see; with the sum of their densities.
+    fn add_shared(&mut self, junction: &Junction<'_>, seen: &Seen, (sum, views): (f64, usize)) {
+        let &Seen { way, scattered, area, density, .. } = seen;
+        let light = junction.toward(junction.frame.to_local(-way.direction));
+        let sharing = Some(Sharing { density, sum, views, part: density / sum });
+        let weight = self.state.weight * scattered * ((area / density) as f32);
+        let reuse = ReuseSeen { found_by: junction.member, light, sharing };
+        self.add_reused(light * scattered * ((area / sum) as f32), (junction, way), (weight, reuse));
     }
 
     /// Adds light from a junction that nobody else makes use of.
     fn add_own(&mut self, junction: &Junction<'_>, view: &View<'_>) {
         let weight = std::mem::replace(&mut self.state.weight, junction.weight);
         let way = Ray { origin: view.paused.receiver.point, direction: junction.shading.direction };
-        self.add_reused(way, junction.toward(junction.out));
+        let light = junction.toward(junction.out);
+        let reuse = ReuseSeen { found_by: junction.member, light, sharing: None };
+        self.add_reused(light, (junction, way), (junction.weight, reuse));
         self.state.weight = weight;
+    }
+
+    /// Adds light that comes this way from a junction. The observer is told what light from there would count if it were this
+    /// path's own.
+    fn add_reused(&mut self, light: Rgb, (junction, way): (&Junction<'_>, Ray), (weight, reuse): (Rgb, ReuseSeen)) {
+        self.observer.ray_begins(RayKind::Connected, self.state.depth + 1, &way, weight);
+        self.observer.surface(&junction.seen_from(way.origin));
+        self.observer.reuse(&reuse);
+        self.add(Source::Reused, light);
+        self.observer.ray_ends();
     }
 }
 
@@ -324,6 +347,13 @@ impl Junction<'_> {
             density: pdf * area,
             is_dark: false,
         })
+    }
+
+    /// The surface, as the observer is told of it.
+    fn seen_from(&self, origin: DVec3) -> SurfaceSeen {
+        let Shading { hit, surface, color, opacity, from_outside, .. } = self.shading;
+        let (length, normal) = ((surface.point - origin).length(), self.shading.normal());
+        SurfaceSeen { hit, length, surface, normal, color, opacity, from_outside }
     }
 
     /// Radiance in this direction, in the frame.
