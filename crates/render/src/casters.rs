@@ -20,7 +20,7 @@ use crate::compile::CompiledScene;
 use crate::emitters::Receiver;
 use crate::emitters::tree::{Cone, Faces, Item, LightTree, Node};
 use arrayvec::ArrayVec;
-use durer_geometry::Round;
+use durer_geometry::{Bounds, Primitive, Round};
 use durer_math::functions::{atan2, cos, sin};
 use durer_math::{DVec2, DVec3, any_orthonormal_pair};
 use durer_scene::Integrator;
@@ -81,7 +81,7 @@ impl Casters {
         if !is_path || !has_map || scene.fog.is_some() {
             return Casters::default();
         }
-        let caster = |(id, primitive): (u32, &durer_geometry::Primitive)| {
+        let caster = |(id, primitive): (u32, &Primitive)| {
             let looks = &scene.objects[id as usize].looks;
             let material = scene.material(id);
             if looks.details().is_some() || material.relief.is_some() || material.opacity.is_some() {
@@ -95,9 +95,13 @@ impl Casters {
             Some(Caster { primitive: id, round: primitive.round()?, ior })
         };
         let list: Vec<Caster> = (0_u32..).zip(scene.world.primitives()).filter_map(caster).collect();
+        Casters::new(list, |caster| scene.world.primitives()[caster.primitive as usize].bounds())
+    }
+
+    fn new(list: Vec<Caster>, bounds: impl Fn(&Caster) -> Bounds) -> Casters {
         let trees = [Form::Ball, Form::Cylinder].map(|form| {
             let items = (0_u32..).zip(&list).filter(|(_, caster)| caster.form() == form);
-            let items = items.filter_map(|(id, caster)| caster.item(scene, id)).collect();
+            let items = items.filter_map(|(id, caster)| caster.item(&bounds(caster), id)).collect();
             LightTree::build(items, list.len())
         });
         Casters { list, trees }
@@ -253,15 +257,14 @@ impl Caster {
     }
 
     /// As the tree sees it.
-    fn item(&self, scene: &CompiledScene, id: u32) -> Option<Item> {
-        let bounds = scene.world.primitives()[self.primitive as usize].bounds();
+    fn item(&self, bounds: &Bounds, id: u32) -> Option<Item> {
         let (size, cone) = match self.round {
             Round::Ball { radius, .. } => (radius * radius, Cone::ALL),
             Round::Cylinder { axis, half_length, radius, .. } => {
                 (radius * half_length.max(radius), Cone::of(axis, Faces::Both))
             }
         };
-        Item::new(&bounds, size, cone, id)
+        Item::new(bounds, size, cone, id)
     }
 
     /// How often light is to go through, not back; `None` from where it can only go along.

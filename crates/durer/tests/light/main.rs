@@ -5,6 +5,7 @@
 #![allow(clippy::disallowed_methods, reason = "expected values come from the platform, not from what is tested")]
 
 mod area_lights;
+mod casters;
 mod closed_scenes;
 mod cornell;
 mod explained;

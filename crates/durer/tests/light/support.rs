@@ -46,3 +46,52 @@ pub(crate) fn assert_pixel(integrator: &str, samples: u32, rest: &str, expected:
         assert!(off <= 5.0 * error + 2e-4 * expected, "{found:?} ± {error}, not {expected}\n{rest}");
     }
 }
+
+/// Mean and the square of its standard error of what is measured of independent renders.
+pub(crate) fn estimate(of: impl Fn(u32) -> Image, measured: impl Fn(&Image) -> Vec<f64>) -> Vec<(f64, f64)> {
+    const RENDERS: u32 = 8;
+    let n = f64::from(RENDERS);
+    let found: Vec<Vec<f64>> = (1..=RENDERS).map(|seed| measured(&of(seed))).collect();
+    let estimate_of = |part: usize| {
+        let mean = found.iter().map(|one| one[part]).sum::<f64>() / n;
+        let squares = found.iter().map(|one| (one[part] - mean).powi(2)).sum::<f64>();
+        (mean, squares / (n * (n - 1.0)))
+    };
+    (0..found[0].len()).map(estimate_of).collect()
+}
+
+/// All components of all pixels.
+pub(crate) fn components(image: &Image) -> Vec<f64> {
+    image.pixels.iter().flat_map(|pixel| pixel.to_array()).map(f64::from).collect()
+}
+
+/// The mean of each component of each half of a picture.
+pub(crate) fn halves(image: &Image) -> Vec<f64> {
+    let mut sums = vec![0.0; 6];
+    for (index, pixel) in image.pixels.iter().enumerate() {
+        let right = usize::from(index as u32 % image.width > image.width / 2);
+        for (channel, component) in pixel.to_array().into_iter().enumerate() {
+            sums[3 * right + channel] += f64::from(component);
+        }
+    }
+    sums.into_iter().map(|sum| sum / (image.pixels.len() / 2) as f64).collect()
+}
+
+/// The same light in both halves within its error, which is to be small enough for that to say something.
+pub(crate) fn assert_same(name: &str, plain: &[(f64, f64)], other: &[(f64, f64)]) {
+    for (part, (&(mean, square), &(found, squared))) in plain.iter().zip(other).enumerate() {
+        let error = (square + squared).sqrt();
+        assert!(mean > 0.0 && error < 0.02 * mean, "{name}: too noisy to tell, {mean} and {found} ± {error}");
+        let off = (found - mean) / error;
+        assert!(off.abs() < 4.5, "{name}, part {part}: {found} in place of {mean}, {off} times the error");
+    }
+}
+
+/// The same light in each pixel: wrong weights may take from one what they give to another of the same block. Differences, as
+/// parts of their errors, follow Student's distribution with 14 degrees of freedom; their squares have a mean of 14/12.
+pub(crate) fn assert_same_pixels(name: &str, plain: &[(f64, f64)], other: &[(f64, f64)]) {
+    let both = plain.iter().zip(other).filter(|((_, square), (_, squared))| square + squared > 0.0);
+    let squares: Vec<f64> = both.map(|((a, aa), (b, bb))| (a - b).powi(2) / (aa + bb)).collect();
+    let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+    assert!(mean < 1.6, "{name}: the mean square of the differences is {mean} times that of their errors");
+}

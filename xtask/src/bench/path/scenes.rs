@@ -11,6 +11,8 @@ pub(super) struct Scene {
     pub(super) name: &'static str,
     pub(super) size: u32,
     pub(super) max_depth: u32,
+    /// What else durer's path tracer is told.
+    pub(super) settings: &'static str,
     eye: DVec3,
     target: DVec3,
     /// The vertical angle of view, in degrees.
@@ -67,6 +69,7 @@ pub(super) fn cornell(size: u32) -> Scene {
         name: "cornell",
         size,
         max_depth: 8,
+        settings: ", split: 4, reuse: 16",
         eye: v(0.0, 0.0, 3.9),
         target: DVec3::ZERO,
         fov: 39.3077,
@@ -132,6 +135,7 @@ pub(super) fn thousand(size: u32) -> Scene {
         name: "thousand",
         size,
         max_depth: 16,
+        settings: "",
         eye: DVec3::new(7.0, 6.0, 20.0),
         target: DVec3::new(0.0, 0.0, 4.0),
         fov: 34.0,
@@ -231,12 +235,13 @@ impl Scene {
         let mut text = format!(
             "camera: {{position: {}, look_at: {}, fov: {}}}\n\
              picture: {{width: {size}, height: {size}}}\n\
-             render: {{integrator: {{path: {{max_depth: {}, split: 4, reuse: 16}}}}}}\n\
+             render: {{integrator: {{path: {{max_depth: {}{}}}}}}}\n\
              lights: []\n",
             v(self.eye),
             v(self.target),
             self.fov,
             self.max_depth,
+            self.settings,
             size = self.size,
         );
         text += &match self.environment {
