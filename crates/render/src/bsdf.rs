@@ -200,9 +200,7 @@ impl Bsdf {
         }
         match self {
             Bsdf::Dielectric(dielectric) => dielectric.only(out, passes),
-            Bsdf::Conductor(conductor) if !passes && conductor.is_specular() => {
-                conductor.sample(out, 0.0, DVec2::ZERO)
-            }
+            Bsdf::Conductor(conductor) if !passes && conductor.is_specular() => conductor.sample(out, 0.0, DVec2::ZERO),
             Bsdf::Mirror(color) if !passes => Some(Scattered::mirrored(out, *color)),
             Bsdf::Diffuse(_)
             | Bsdf::OrenNayar(_)

@@ -68,6 +68,9 @@ enum Form {
 /// Balls that stand for less than this, over the square of their distance, are as likely as those that do: light that the guess
 /// leaves out may be there.
 const LEAST: f64 = 0.002;
+/// Who is amidst of casters has some of them nearer than the size of their box tells: these count as so many times as bright. Found by
+/// trial, with a thousand things under a sun; 4 and 30 are as good, and with 1 there was a fifth more noise.
+const AMIDST: f64 = 8.0;
 /// Light that is found with this density or more, per solid angle, stands out: an even sky has a thirtieth of that.
 const OUTSTANDING: f64 = 2.0;
 /// Glass of less than this bends light so little that its own shadow ray would find it.
@@ -204,7 +207,7 @@ impl Form {
         let (way, radius2) = node.way_from(receiver.point);
         let squared = way.length_squared();
         if squared <= radius2 {
-            return node.intensity() / radius2.max(1e-60);
+            return AMIDST * node.intensity() / radius2.max(1e-60);
         }
         let nearness = 1.0 / squared.sqrt();
         let near = node.intensity() * nearness * nearness;

@@ -134,7 +134,10 @@ fn rays_are_found_by_where_they_go() {
             met += 1;
             let found = caster.rays(from, light, passage);
             let off = |other: &DVec3| (*other - toward).length();
-            assert!(found.iter().any(|other| off(other) < 1e-6), "{caster:?} {passage:?} from {from}: {toward} {found:?}");
+            assert!(
+                found.iter().any(|other| off(other) < 1e-6),
+                "{caster:?} {passage:?} from {from}: {toward} {found:?}"
+            );
             for other in found {
                 let Some((_, end)) = follow(&caster, from, other, passage) else {
                     panic!("{caster:?} {passage:?} from {from}: {other} does not come through")
@@ -160,7 +163,9 @@ fn spread_is_a_ratio_of_solid_angles() {
                 Some((same, end)) if same == surfaces => Some(end),
                 _ => None,
             };
-            let [Some(a), Some(b), Some(c), Some(d)] = [end(u * h), end(u * -h), end(v * h), end(v * -h)] else { continue };
+            let [Some(a), Some(b), Some(c), Some(d)] = [end(u * h), end(u * -h), end(v * h), end(v * -h)] else {
+                continue;
+            };
             let expected = (a - b).cross(c - d).length() / (4.0 * h * h);
             match caster.spread(from, toward, passage, surfaces) {
                 Some(spread) => {

@@ -34,10 +34,7 @@ impl Angle {
     }
 
     pub(super) fn plus(self, other: Angle) -> Angle {
-        Angle {
-            sin: self.sin * other.cos + self.cos * other.sin,
-            cos: self.cos * other.cos - self.sin * other.sin,
-        }
+        Angle { sin: self.sin * other.cos + self.cos * other.sin, cos: self.cos * other.cos - self.sin * other.sin }
     }
 
     pub(super) fn negative(self) -> Angle {
@@ -343,7 +340,8 @@ mod tests {
 
     #[test]
     fn every_ray_inside_is_found_by_where_it_goes() {
-        for (q, times) in [(0.0, 1), (0.2, 0), (0.3, 1), (0.7, 1), (0.99, 1), (0.3, 2), (0.9, 2), (0.05, 3), (0.95, 3)] {
+        for (q, times) in [(0.0, 1), (0.2, 0), (0.3, 1), (0.7, 1), (0.99, 1), (0.3, 2), (0.9, 2), (0.05, 3), (0.95, 3)]
+        {
             let inside = Inside { q, times };
             for step in 1..200 {
                 let wanted = PI * f64::from(step) / 200.0;

@@ -372,7 +372,8 @@ impl<'a, O: Observer> Path<'a, O> {
         }
         let emission = shading.emission;
         // What another medium hides is not there and does not glow.
-        if !emission.is_black() && self.plan().is_none() && (!shading.bounds_medium || self.indices(&shading).is_some()) {
+        if !emission.is_black() && self.plan().is_none() && (!shading.bounds_medium || self.indices(&shading).is_some())
+        {
             let density =
                 |receiver: &Receiver| scene.emitters.pdf_of_hit(scene, receiver, &met.ray, &hit, &surface, met.length);
             let part = self.part_of_found(density);

@@ -266,7 +266,8 @@ fn parts(environment: &Environment, cells: &[Vec<f64>], grid: Grid) -> Vec<[(DVe
         for (column, &light) in cells.iter().enumerate() {
             let [across, up] = sides(environment, column, row);
             let (direction, _) = environment.direction([0.5 * (across[0] + across[1]), 0.5 * (up[0] + up[1])]);
-            let [x, y] = [(column, grid.tile[0]), (row, grid.tile[1])].map(|(at, size)| (at / size, 2 * (at % size) / size));
+            let [x, y] =
+                [(column, grid.tile[0]), (row, grid.tile[1])].map(|(at, size)| (at / size, 2 * (at % size) / size));
             let part = &mut parts[y.0 * grid.tiles[0] + x.0][2 * y.1 + x.1];
             *part = (part.0 + direction * light, part.1 + light);
         }

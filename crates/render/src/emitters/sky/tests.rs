@@ -144,7 +144,8 @@ fn large_maps_share_cells() {
     const DIRECTIONS: u32 = 1 << 16;
     for at in plane_points(DIRECTIONS) {
         let direction = on_sphere(at);
-        sum += map.pdf(environment, &receiver, environment.place(direction), direction) * 4.0 * PI / f64::from(DIRECTIONS);
+        sum +=
+            map.pdf(environment, &receiver, environment.place(direction), direction) * 4.0 * PI / f64::from(DIRECTIONS);
         let (place, direction, pdf) = map.sample(environment, &receiver, at).unwrap();
         assert!((map.pdf(environment, &receiver, place, direction) / pdf - 1.0).abs() < 1e-4);
     }
