@@ -219,9 +219,9 @@ fn about(rounds: usize, samples: usize, size: u32, threads: usize) -> String {
          sampling. Seconds are those that each program takes to render, without loading; for Mitsuba's compiled variant those of a\n\
          second picture, when the code is there already. Median of {rounds} rounds of two pictures. relMSE is half the squared\n\
          difference of two pictures with different random numbers, over the square of the value plus 0.01: the variance, which an\n\
-         unbiased program's error is. Seconds to equal relMSE assume that four times the samples halve the error. durer's paths are\n\
-         reused by blocks of 4 × 4 pixels (`reuse: 16`), in which the rest of its noise is alike, and looks four times for what\n\
-         cannot be (`split: 4`); the others have no words for that.\n\n\
+         unbiased program's error is. Seconds to equal relMSE assume that four times the samples halve the error. In the box\n\
+         durer's paths are reused by blocks of 4 × 4 pixels (`reuse: 16`), in which the rest of its noise is alike, and looks four\n\
+         times for what cannot be (`split: 4`); the others have no words for that.\n\n\
          `cornell` is the Cornell box with the numbers of Mitsuba's. `thousand` are balls and tubes of gold, steel, glass and\n\
          clay under an environment map; Cycles draws them as meshes of 96 sides. Mitsuba's rough metals lose what light meets\n\
          several microfacets (in a white furnace balls of gold and steel as rough as these give back 1.4 and 5.8 % less red than\n\

@@ -38,7 +38,7 @@ impl Primitive {
         let radius = x.length();
         let is_equal = |a: DVec3| (a.length() - radius).abs() <= EQUAL * radius;
         let are_square = |a: DVec3, b: DVec3| a.dot(b).abs() <= EQUAL * a.length() * b.length();
-        if !(are_square(x, y) && are_square(y, z) && are_square(z, x)) || !is_equal(z) {
+        if !(are_square(x, y) && are_square(y, z) && are_square(z, x) && is_equal(z)) {
             return None;
         }
         match &self.kind {
