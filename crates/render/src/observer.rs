@@ -17,6 +17,9 @@ pub enum RayKind {
     Transmitted,
     /// To a junction: a surface that a path has met, from which all pixels of its block that see it take light.
     Connected,
+    /// Of a path: to a ball or cylinder by way of which it finds light of the sky. Its weight, and that of what follows it, is not yet
+    /// divided by the density with which it was found.
+    Cast,
 }
 
 /// Where a contribution to a pixel comes from.
@@ -309,6 +312,8 @@ impl Observer for RayCounts {
             RayKind::Eye => self.eye += 1,
             RayKind::Reflected => self.reflected += 1,
             RayKind::Transmitted => self.transmitted += 1,
+            // It looks for light.
+            RayKind::Cast => self.shadow += 1,
             // It is a shadow ray that has got through.
             RayKind::Connected => {}
         }

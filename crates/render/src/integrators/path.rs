@@ -342,7 +342,8 @@ impl<'a, O: Observer> Path<'a, O> {
             let seen = scene.background.light(&look);
             if !seen.is_black() {
                 let part = self.part_of_sky(&look);
-                self.add(Source::Background, seen * part);
+                let source = if self.plan().is_some() { Source::Light(None) } else { Source::Background };
+                self.add(source, seen * part);
             }
             return false;
         };
@@ -565,7 +566,7 @@ impl<'a, O: Observer> Path<'a, O> {
                 cast: Some(cast),
                 ..state
             };
-            self.go_on(RayKind::Reflected, shading.ray_back(toward));
+            self.go_on(RayKind::Cast, shading.ray_back(toward));
             self.follow_to_the_end();
             (self.state, self.media) = (state, Media::default());
         }

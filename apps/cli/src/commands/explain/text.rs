@@ -79,8 +79,9 @@ impl Explained<'_> {
     fn ray(&self, page: &mut Ledger, ray: &RayExplanation) {
         let weight = match ray.kind {
             RayKind::Eye => String::new(),
-            RayKind::Reflected | RayKind::Transmitted | RayKind::Connected => {
-                format!(", weight {}{}", color(ray.weight), words::relative_to(ray.relative_to))
+            RayKind::Reflected | RayKind::Transmitted | RayKind::Connected | RayKind::Cast => {
+                let over = if ray.kind == RayKind::Cast { " before the density" } else { "" };
+                format!(", weight {}{over}{}", color(ray.weight), words::relative_to(ray.relative_to))
             }
         };
         let way = ray.way.map_or_else(String::new, |way| format!(", {}", words::way(way)));

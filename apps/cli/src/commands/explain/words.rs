@@ -11,6 +11,7 @@ pub(super) fn ray(kind: RayKind) -> &'static str {
         RayKind::Reflected => "reflected ray",
         RayKind::Transmitted => "transmitted ray",
         RayKind::Connected => "ray to a junction",
+        RayKind::Cast => "ray aimed through a caster",
     }
 }
 
@@ -21,6 +22,7 @@ pub(super) fn ray_key(kind: RayKind) -> &'static str {
         RayKind::Reflected => "reflected",
         RayKind::Transmitted => "transmitted",
         RayKind::Connected => "connected",
+        RayKind::Cast => "cast",
     }
 }
 
