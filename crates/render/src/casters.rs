@@ -73,8 +73,8 @@ const LEAST: f64 = 0.002;
 const AMIDST: f64 = 8.0;
 /// Light that is found with this density or more, per solid angle, stands out: an even sky has a thirtieth of that.
 const OUTSTANDING: f64 = 2.0;
-/// Glass of less than this bends light so little that its own shadow ray would find it.
-const LEAST_INDEX: f64 = 1.02;
+/// Glass of less than this hardly bends light at all.
+const LEAST_INDEX: f64 = 1.001;
 
 impl Casters {
     /// Those of a scene that is complete but for them and the emitters; none where there is nothing to aim at through them.
@@ -309,7 +309,7 @@ impl Caster {
         let (rise, flatness) = (plane.rise.abs(), plane.flatness);
         let before = plane.height.abs() - half_length;
         // From below it goes up.
-        if before < 0.0 || plane.rise * plane.height > 0.0 || rise < 1e-6 {
+        if before < 0.0 || plane.rise * plane.height > 0.0 {
             return None;
         }
         let across = plane.across(light);
@@ -325,8 +325,9 @@ impl Caster {
                 let half_chord = radius * Angle::of_sine(plane.circle.q * start.sin).cos;
                 let first = radius * plane.circle.q * start.cos + half_chord;
                 let met = if leaving < first { 0.0 } else { 1.0 + ((leaving - first) / (2.0 * half_chord)).floor() };
-                if entering < first && met == f64::from(times) && !rays.is_full() {
-                    rays.push(plane.direction(across, start));
+                if entering < first && met == f64::from(times) {
+                    debug_assert!(!rays.is_full());
+                    let _ = rays.try_push(plane.direction(across, start));
                 }
             }
         }
@@ -338,7 +339,7 @@ impl Caster {
     fn spread(&self, from: DVec3, toward: DVec3, passage: Passage, surfaces: u32) -> Option<f64> {
         if passage == Passage::Along {
             let plane = self.plane_inside(from, toward)?;
-            let inside = Inside { q: plane.circle.q, times: surfaces - 2 };
+            let inside = Inside { q: plane.circle.q, times: surfaces.checked_sub(2)? };
             return (inside.times <= MOST_TIMES).then(|| inside.rise(plane.angle(toward)).abs());
         }
         let plane = self.plane(from, toward, passage)?;
@@ -389,7 +390,8 @@ impl Caster {
         let Round::Cylinder { radius, .. } = self.round else { return None };
         let (distance, plane) = self.plane_across(from, direction)?;
         let circle = Circle { q: distance / radius, eta: None };
-        (distance < radius && plane.flatness >= 1e-6).then_some(Plane { circle, ..plane })
+        let is_aslant = plane.flatness >= 1e-6 && plane.rise.abs() >= 1e-6;
+        (distance < radius && is_aslant).then_some(Plane { circle, ..plane })
     }
 
     /// The plane across a cylinder, and how far its axis is from a point.
@@ -462,7 +464,7 @@ fn flat(v: DVec3, axis: DVec3) -> DVec3 {
 }
 
 /// The most rays by one caster.
-const MOST_RAYS: usize = 12;
+const MOST_RAYS: usize = 16;
 
 #[cfg(test)]
 mod tests;

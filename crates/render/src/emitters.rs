@@ -156,11 +156,9 @@ impl Emitters {
     fn sample_sky(&self, scene: &CompiledScene, receiver: &Receiver, at: DVec2) -> Option<LightSample> {
         let (look, pdf) = self.sky.as_ref()?.sample(&scene.background, receiver, at)?;
         let direction = look.direction;
-        if !receiver.passes && direction.dot(receiver.normal) <= 0.0 {
-            // There is no need to wait for a pixel from memory.
-            return None;
-        }
-        let light = scene.background.light(&look);
+        // From behind nothing comes but by way of casters, and there is no need to wait for a pixel from memory.
+        let is_behind = !receiver.passes && direction.dot(receiver.normal) <= 0.0;
+        let light = if is_behind { Rgb::BLACK } else { scene.background.light(&look) };
         Some(LightSample { direction, distance: f64::INFINITY, light, pdf, is_point: false, lamp: None })
     }
 

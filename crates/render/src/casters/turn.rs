@@ -224,8 +224,9 @@ impl Inside {
             let (first, last) = (self.end(from), self.end(to));
             let (low, high) = (first.min(last), first.max(last));
             let mut wanted = end + TAU * ((low - end) / TAU).ceil();
-            while wanted < high && !starts.is_full() {
-                starts.push(self.root(wanted, from, to));
+            while wanted < high {
+                debug_assert!(!starts.is_full());
+                let _ = starts.try_push(self.root(wanted, from, to));
                 wanted += TAU;
             }
         };
@@ -257,8 +258,8 @@ impl Inside {
     }
 }
 
-/// With three times at most, there are no more.
-pub(super) const MOST_STARTS: usize = 10;
+/// With k times there are 2 k + 1 at most, and k is 3 at most.
+pub(super) const MOST_STARTS: usize = 7;
 
 /// The sine of the angle from one to another; infinite if that is more than a right angle.
 fn sine_between(from: Angle, to: Angle) -> f64 {

@@ -38,6 +38,9 @@ const FIRST_ROULETTE: u32 = 3;
 /// few of many paths find the light. Found by trial, with a box and a thousand things under a sky; to end all in proportion to
 /// their weight took 1.1 and 1.6 times as long to the same error. (Veach 1997, §10.4.1, has the theory.)
 const WORTHWHILE: f32 = 0.3;
+/// So many segments of a path from the eye are taken for what is [seen](Bsdf::sample_seen) in glass: in stacks of panes all that
+/// goes through would be the noisier.
+const DEEPEST_SEEN: u32 = 3;
 /// From so many surfaces that spread a path light is aimed at through casters, too.
 const MOST_CASTING: u32 = 2;
 /// No path goes on with a greater chance than this that has lost nothing: between perfect mirrors it would not end.
@@ -429,7 +432,8 @@ impl<'a, O: Observer> Path<'a, O> {
             None => {
                 let lobe = if bsdf.has_one_lobe() { 0.0 } else { self.sampler.one(step, Purpose::Lobe) };
                 let at = self.sampler.two(step, Purpose::Direction);
-                if self.state.spreads == 0 { bsdf.sample_seen(*out, lobe, at) } else { bsdf.sample(*out, lobe, at) }
+                let is_seen = self.state.spreads == 0 && self.state.depth <= DEEPEST_SEEN;
+                if is_seen { bsdf.sample_seen(*out, lobe, at) } else { bsdf.sample(*out, lobe, at) }
             }
         };
         let Some(scattered) = scattered else { return false };
@@ -464,8 +468,12 @@ impl<'a, O: Observer> Path<'a, O> {
             }
             How::Only => {
                 self.state.aimed = None;
+                let had_plan = self.plan().is_some();
                 self.state.cast =
                     self.state.cast.and_then(|cast| cast.met(self.scene, shading, self.state.met, passes));
+                if had_plan && self.state.cast.is_none() {
+                    return false;
+                }
             }
         }
         self.state.depth += 1;

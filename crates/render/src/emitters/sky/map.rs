@@ -86,7 +86,7 @@ fn normals(facing: usize) -> [DVec3; 5] {
     })
 }
 
-/// Distributions of whole numbers from 0, in parts of [`ALL`]: what is above 0 has a part at least. All have as many numbers.
+/// Distributions of whole numbers from 0, in parts of [`ALL`]: what is above 0 has a part at least. All have as much room.
 #[derive(Clone, Debug)]
 struct Distributions {
     /// The parts of each number and those before it, in whole blocks, with [`ALL`] at the end; one distribution after the other.
@@ -103,14 +103,11 @@ const ALL: u16 = u16::MAX;
 const BLOCK: usize = 32;
 
 impl Distributions {
-    /// Those that are proportional to these weights, none of which is negative; of each no more than [`MOST_COLUMNS`].
-    fn new<'a>(weights: impl Iterator<Item = &'a [f64]>) -> Distributions {
-        let mut all = Distributions { ends: Vec::new(), blocks: Vec::new(), block_count: 0 };
-        for weights in weights {
-            let start = all.ends.len();
-            all.add(weights);
-            all.block_count = (all.ends.len() - start) / BLOCK;
-        }
+    /// Those that are proportional to these weights, none of which is negative; of each no more than `most`, which is no more than
+    /// [`MOST_COLUMNS`]. Some may have fewer.
+    fn new<'a>(weights: impl Iterator<Item = &'a [f64]>, most: usize) -> Distributions {
+        let mut all = Distributions { ends: Vec::new(), blocks: Vec::new(), block_count: most.div_ceil(BLOCK) };
+        weights.for_each(|weights| all.add(weights));
         let last = |block: &[u16]| block.last().copied();
         all.blocks = all.ends.chunks(BLOCK).filter_map(last).collect();
         all
@@ -131,7 +128,7 @@ impl Distributions {
         if let Some(last) = weights.iter().rposition(|&weight| weight > 0.0) {
             self.ends[start + last..].fill(ALL);
         }
-        self.ends.resize(start + weights.len().next_multiple_of(BLOCK), ALL);
+        self.ends.resize(start + self.block_count * BLOCK, ALL);
     }
 
     /// The number that one from 0 to less than 1 chooses in a distribution, what is left of that one, from 0 to 1, and the
@@ -198,9 +195,9 @@ impl Map {
         let parts = parts(environment, &cells, grid);
         let seen: Vec<Vec<f64>> = (0..=FACINGS).into_par_iter().map(|facing| seen(&parts, facing)).collect();
         Some(Map {
-            tiles: Distributions::new(seen.iter().map(Vec::as_slice)),
-            rows: Distributions::new(light.iter().map(Vec::as_slice)),
-            cells: Distributions::new(cells.iter().flat_map(|row| row.chunks(grid.tile[0]))),
+            tiles: Distributions::new(seen.iter().map(Vec::as_slice), light.len()),
+            rows: Distributions::new(light.iter().map(Vec::as_slice), grid.tile[1]),
+            cells: Distributions::new(cells.iter().flat_map(|row| row.chunks(grid.tile[0])), grid.tile[0]),
             grid,
             mean,
         })

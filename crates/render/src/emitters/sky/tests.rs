@@ -116,6 +116,9 @@ fn maps() {
     agrees(&image(16, 8, |column, row| 0.1 + (column * 3 + row * 5) as f32 % 7.0));
     agrees(&image(1, 1, |_, _| 0.3));
     agrees(&image(3, 5, |column, row| if row == 1 { 1.0 + column as f32 } else { 0.0 }));
+    // The last tiles have fewer cells, which fill fewer cache lines.
+    agrees(&image(520, 260, |column, row| 1.0 + ((column / 7 + row / 5) % 5) as f32));
+    agrees(&image(1025, 512, |column, row| 1.0 + ((column / 9 + row / 7) % 4) as f32));
     // A sun of one pixel, which is seen in its neighbors, too.
     agrees(&image(24, 12, |column, row| if (column, row) == (5, 3) { 1000.0 } else { 0.05 }));
 }
