@@ -71,6 +71,9 @@ const LEAST: f64 = 0.002;
 /// Who is amidst of casters has some of them nearer than the size of their box tells: these count as so many times as bright. Found by
 /// trial, with a thousand things under a sun; 4 and 30 are as good, and with 1 there was a fifth more noise.
 const AMIDST: f64 = 8.0;
+/// How often at most: with a floor under a thousand small beads, where little else takes time, less is better, and with a thousand
+/// things of all kinds more would be, by little.
+const EAGERNESS: f64 = 0.5;
 /// Light that is found with this density or more, per solid angle, stands out: an even sky has a thirtieth of that.
 const OUTSTANDING: f64 = 2.0;
 /// Glass of less than this hardly bends light at all.
@@ -198,7 +201,7 @@ impl Casters {
 /// How often it is worth while to look for light through casters that was found with this density: all the less often, the less
 /// it stands out, for so much is found without.
 fn worth(pdf: f64) -> f64 {
-    (pdf / OUTSTANDING).min(1.0)
+    EAGERNESS * (pdf / OUTSTANDING).min(1.0)
 }
 
 impl Form {
