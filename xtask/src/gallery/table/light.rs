@@ -28,6 +28,18 @@ pub(super) const ENTRIES: &[Entry] = &[
         }],
     },
     Entry {
+        heading: "Light through glass",
+        text: "Balls and cylinders gather the light of a sun in an environment map. It is aimed at through them, so that these lines \
+               and spots become clean as soon as the rest.",
+        pictures: &[Picture {
+            name: "caustics",
+            caption: "balls and cylinders of glass, gold and silver on a floor, with bright lines and spots in and beside their shadows",
+            scene: "scenes/gallery/caustics.yaml",
+            arguments: &["--samples", "1024"],
+            ..RENDERED
+        }],
+    },
+    Entry {
         heading: "The Cornell box",
         text: "With the numbers of Mitsuba's; a test compares blocks of pixels with a reference.",
         pictures: &[Picture {
