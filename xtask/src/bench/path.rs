@@ -9,6 +9,7 @@ use super::options::Options;
 use super::{machine, measure, report};
 use crate::shell;
 use durer::imaging::{DecodeLimits, EncodeOptions, FileFormat, Image, Transfer, encode};
+use durer::math::Rgb;
 use scenes::{Rows, Scene};
 use serde_json::Value;
 use std::path::Path;
@@ -155,12 +156,7 @@ fn draw(program: &Program, scene: &Scene, samples: usize, rounds: usize, folder:
         };
         pairs.push([one(2 * round as u32 + 1)?, one(2 * round as u32 + 2)?]);
     }
-    let all: Vec<&Image> = pairs.iter().flatten().collect();
-    let mut mean = all[0].clone();
-    for (index, pixel) in mean.pixels.iter_mut().enumerate() {
-        *pixel =
-            all.iter().fold(durer::math::Rgb::BLACK, |sum, image| sum + image.pixels[index]) * (1.0 / all.len() as f32);
-    }
+    let mean = mean_of(&pairs.iter().flatten().collect::<Vec<_>>());
     let seconds = report::median(seconds).unwrap_or(f64::NAN);
     Ok(Outcome { program: program.name.clone(), seconds, mean, pairs })
 }
@@ -184,6 +180,22 @@ fn relative_variance(pairs: &[[Image; 2]], reference: &Image) -> f64 {
     sum / (3 * pairs.len() * reference.pixels.len()) as f64
 }
 
+/// What all programs but one draw, or that one if it is alone. With its own pictures as the reference, a program's bright dots would
+/// be measured by themselves: none could count more than 2.
+fn drawn_by_others(outcomes: &[Outcome], index: usize) -> Image {
+    let others = outcomes.iter().enumerate().filter(|(other, _)| *other != index || outcomes.len() == 1);
+    mean_of(&others.map(|(_, outcome)| &outcome.mean).collect::<Vec<_>>())
+}
+
+fn mean_of(images: &[&Image]) -> Image {
+    let mut mean = images[0].clone();
+    for (index, pixel) in mean.pixels.iter_mut().enumerate() {
+        let sum = images.iter().fold(Rgb::BLACK, |sum, image| sum + image.pixels[index]);
+        *pixel = sum * (1.0 / images.len() as f32);
+    }
+    mean
+}
+
 /// How much brighter than the reference, on the whole.
 fn brightness(image: &Image, reference: &Image) -> f64 {
     let total = |image: &Image| image.pixels.iter().map(|pixel| f64::from(pixel.luminance())).sum::<f64>();
@@ -191,16 +203,15 @@ fn brightness(image: &Image, reference: &Image) -> f64 {
 }
 
 fn table(scene: &Scene, samples: usize, outcomes: &[Outcome]) -> String {
-    let [durer, others @ ..] = outcomes else { return String::new() };
-    // What the others draw, for what is asked is how far we are from it.
-    let reference = others.first().map_or(&durer.mean, |other| &other.mean);
+    let [durer, ..] = outcomes else { return String::new() };
     let mut text = format!(
         "## {}\n\n| program | seconds for {samples} samples a pixel | relMSE | seconds to durer's relMSE | ÷ durer's | brighter than durer |\n|---|---:|---:|---:|---:|---:|\n",
         scene.name
     );
-    let ours = relative_variance(&durer.pairs, reference);
-    for outcome in outcomes {
-        let error = relative_variance(&outcome.pairs, reference);
+    let error_of = |index: usize| relative_variance(&outcomes[index].pairs, &drawn_by_others(outcomes, index));
+    let ours = error_of(0);
+    for (index, outcome) in outcomes.iter().enumerate() {
+        let error = error_of(index);
         let equal = outcome.seconds * error / ours;
         text += &format!(
             "| {} | {:.2} | {error:.5} | {equal:.2} | {:.2} | {:+.2} % |\n",
@@ -219,7 +230,7 @@ fn about(rounds: usize, samples: usize, size: u32, threads: usize) -> String {
          sampling. Seconds are those that each program takes to render, without loading; for Mitsuba's compiled variant those of a\n\
          second picture, when the code is there already. Median of {rounds} rounds of two pictures. relMSE is half the squared\n\
          difference of two pictures with different random numbers, over the square of the value plus 0.01: the variance, which an\n\
-         unbiased program's error is. Seconds to equal relMSE assume that four times the samples halve the error. In the box\n\
+         unbiased program's error is. The value is the mean of what the other programs draw. Seconds to equal relMSE assume that four times the samples halve the error. In the box\n\
          durer's paths are reused by blocks of 4 × 4 pixels (`reuse: 16`), in which the rest of its noise is alike, and looks four\n\
          times for what cannot be (`split: 4`); the others have no words for that.\n\n\
          `cornell` is the Cornell box with the numbers of Mitsuba's. `thousand` are balls and tubes of gold, steel, glass and\n\
@@ -234,8 +245,6 @@ fn about(rounds: usize, samples: usize, size: u32, threads: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use durer::math::Rgb;
-
     #[test]
     fn variance_is_that_of_one_picture() {
         let image = |values: [f32; 2]| Image { width: 2, height: 1, pixels: values.map(Rgb::gray).to_vec() };
