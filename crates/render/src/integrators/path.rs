@@ -9,12 +9,11 @@
 //!
 //! As with the classic integrator, a sample is one sum of contributions that carry their full weight.
 
+mod cast;
 mod reuse;
 
 use super::{Integrator, Together, one_by_one};
-use crate::background::Look;
 use crate::bsdf::{Bsdf, How};
-use crate::casters::Passage;
 use crate::compile::CompiledScene;
 use crate::emitters::{LightSample, Receiver};
 use crate::frame::Frame;
@@ -25,7 +24,8 @@ use crate::sampler::{Purpose, Sampler};
 use crate::shading::Shading;
 use crate::surfaces::Indices;
 use crate::visibility::{MOST_SURFACES, visibility};
-use durer_geometry::{Hit, Ray};
+use cast::{Cast, MOST_CASTING};
+use durer_geometry::Ray;
 use durer_math::{DVec3, Rgb};
 use durer_scene::PathSettings;
 
@@ -41,8 +41,6 @@ const WORTHWHILE: f32 = 0.3;
 /// So many segments of a path from the eye are taken for what is [seen](Bsdf::sample_seen) in glass: in stacks of panes all that
 /// goes through would be the noisier.
 const DEEPEST_SEEN: u32 = 3;
-/// From so many surfaces that spread a path light is aimed at through casters, too.
-const MOST_CASTING: u32 = 2;
 /// No path goes on with a greater chance than this that has lost nothing: between perfect mirrors it would not end.
 const MOST_LIKELY: f32 = 0.99;
 
@@ -184,75 +182,6 @@ struct Aimed {
     receiver: Receiver,
     /// Density of the direction, by the surface; of several, the sum.
     pdf: f64,
-}
-
-/// A way from a surface that spreads light by a caster, as far as it fits.
-#[derive(Clone, Copy)]
-struct Cast {
-    start: Aimed,
-    /// Where it started to.
-    toward: DVec3,
-    /// Surfaces met before that, its own among them.
-    met: u32,
-    /// By which it goes, and how: not known before it is there.
-    caster: Option<(u32, Passage)>,
-    /// How many surfaces of it were met.
-    surfaces: u32,
-    /// True if the caster is left behind.
-    is_out: bool,
-    /// True if it was found by aiming at light through the caster, not by the surface.
-    is_planned: bool,
-}
-
-impl Cast {
-    /// A way that starts from a surface which is met after so many.
-    fn new(start: Aimed, toward: DVec3, met: u32) -> Cast {
-        Cast { start, toward, met: met + 1, caster: None, surfaces: 0, is_out: false, is_planned: false }
-    }
-
-    /// It goes on from a surface that is met after so many; `None` if it does not fit there.
-    fn met(mut self, scene: &CompiledScene, shading: &Shading<'_>, met: u32, passes: bool) -> Option<Cast> {
-        let is_next = self.met + self.surfaces == met && !self.is_out;
-        let found = scene.casters.find(shading.primitive).filter(|_| is_next)?;
-        // Of cylinders, the others are caps.
-        let is_side = shading.part() == 0;
-        let (caster, passage) = match (self.surfaces, is_side, passes) {
-            (0, true, true) => (found, Passage::Through),
-            (0, true, false) => (found, Passage::Back),
-            (0, false, true) => (found, Passage::Along),
-            _ => self.caster?,
-        };
-        let goes_on = match (passage, self.surfaces) {
-            (_, 0) => true,
-            (Passage::Through, _) => is_side && passes,
-            (Passage::Back, _) => false,
-            (Passage::Along, _) => is_side != passes,
-        };
-        self.is_out = passage == Passage::Back || self.surfaces > 0 && passes;
-        self.surfaces += 1;
-        let is_same = found == caster && self.caster.is_none_or(|planned| planned == (caster, passage));
-        self.caster = Some((caster, passage));
-        (goes_on && is_same).then_some(self)
-    }
-
-    /// True if it comes out of the scene, when it has met so many surfaces.
-    fn arrives(&self, met: u32) -> bool {
-        self.is_out && self.met + self.surfaces == met
-    }
-
-    /// True if a planned way is to meet what it has hit.
-    fn fits(&self, scene: &CompiledScene, hit: &Hit) -> bool {
-        self.caster.is_some_and(|(caster, _)| scene.casters.get(caster).primitive == hit.primitive) && !self.is_out
-    }
-
-    /// True if a planned way is to pass a part of its caster.
-    fn passes(&self, part: u32) -> bool {
-        match self.caster {
-            Some((_, Passage::Through)) => true,
-            Some((_, Passage::Along)) => part != 0,
-            Some((_, Passage::Back)) | None => false,
-        }
-    }
 }
 
 impl<'a, O: Observer> Path<'a, O> {
@@ -543,49 +472,6 @@ impl<'a, O: Observer> Path<'a, O> {
         emitters.sample(self.scene, vertex.receiver, choice, self.sampler.two(step, Purpose::LightPoint))
     }
 
-    /// True if light is aimed at through casters from the surface that the last segment meets.
-    fn may_aim_by_casters(&self) -> bool {
-        !self.scene.casters.is_empty() && self.state.spreads < MOST_CASTING && self.media.is_empty()
-    }
-
-    /// Adds what arrives by way of a caster of light of the sky in a direction that is found with this density, where so many ways
-    /// go on.
-    #[inline(never)]
-    fn aim_by_caster(&mut self, vertex: &Vertex<'_, '_>, light: (DVec3, f64), ways: u32) {
-        let Vertex { shading, frame, out, bsdf, receiver, .. } = vertex;
-        let casters = &self.scene.casters;
-        let choice = self.sampler.two(self.step(), Purpose::Caster);
-        let Some((caster, passage)) = casters.choose(receiver, light, choice) else { return };
-        let (state, pause) = (self.state, std::mem::replace(&mut self.pause, Pause::Nowhere));
-        for toward in casters.get(caster).rays(receiver.point, light.0, passage) {
-            let (scattered, pdf) = bsdf.evaluate(*out, frame.to_local(toward));
-            let scattered = scattered * shading.kept(toward) as f32;
-            if scattered.is_black() || frame.to_local(toward).z <= 0.0 || shading.is_on_far_side(toward) {
-                continue;
-            }
-            let start = Aimed { receiver: **receiver, pdf: pdf * f64::from(ways) };
-            let plan = Cast::new(start, toward, state.met);
-            let cast = Cast { caster: Some((caster, passage)), is_planned: true, ..plan };
-            self.state = State {
-                weight: state.weight * scattered,
-                depth: state.depth + 1,
-                met: state.met + 1,
-                aimed: None,
-                cast: Some(cast),
-                ..state
-            };
-            self.go_on(RayKind::Cast, shading.ray_back(toward));
-            self.follow_to_the_end();
-            (self.state, self.media) = (state, Media::default());
-        }
-        self.pause = pause;
-    }
-
-    /// The way by a caster that it was sent on purpose.
-    fn plan(&self) -> Option<&Cast> {
-        self.state.cast.as_ref().filter(|cast| cast.is_planned)
-    }
-
     /// What arrives of light that is aimed at, where so many ways go on.
     #[inline]
     fn arriving(&mut self, vertex: &Vertex<'_, '_>, light: &LightSample, ways: u32) -> Option<Arriving> {
@@ -630,35 +516,6 @@ impl<'a, O: Observer> Path<'a, O> {
             arriving = arriving * fog.veil(light.distance).visible;
         }
         Some(Arriving { source: Source::Light(light.lamp), toward, scattered, light: arriving })
-    }
-
-    /// What light of the sky counts that the last segment has found.
-    fn part_of_sky(&mut self, look: &Look) -> f32 {
-        let scene = self.scene;
-        let arrives = self.state.cast.filter(|cast| cast.arrives(self.state.met));
-        let Some(Cast { start: Aimed { receiver, pdf }, toward, caster: Some(caster), surfaces, is_planned, .. }) =
-            arrives
-        else {
-            return match self.plan() {
-                Some(_) => 0.0,
-                None => self.part_of_found(|receiver| scene.emitters.pdf_of_background(scene, receiver, look)),
-            };
-        };
-        let of_light = scene.emitters.pdf_of_background(scene, &receiver, look);
-        let by_aiming = scene.casters.density(&receiver, toward, caster, surfaces, (look.direction, of_light));
-        let (part, counts) = match is_planned {
-            true if by_aiming > 0.0 => {
-                let part = power_heuristic(by_aiming, pdf);
-                (part, part / by_aiming)
-            }
-            true => return 0.0,
-            false => {
-                let part = power_heuristic(pdf, by_aiming);
-                (part, part)
-            }
-        };
-        self.observer.weighing(&Weighing { by_surface: pdf, by_aiming, part });
-        counts as f32
     }
 
     /// What light counts that the last segment has found, if by aiming it is found with this density from a receiver.
